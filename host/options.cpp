@@ -5,6 +5,7 @@
 #include "host/input/calibration/calibration_sensor.h"
 #include "host/input/schema/limits.h"
 #include "host/manual/manual.h"
+#include "host/usage.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -230,17 +231,6 @@ std::string manual_of(const CommandTable &table, const std::vector<std::string> 
   throw Error(ExitCode::usage, "manual: expected commands, man, bash, zsh or fish, found " + in_quotes(kind));
 }
 
-// The failure in one line, as CLI11's messages may have more; of an unknown command CLI11 says only that one
-// is missing.
-std::string parse_failure(const CLI::App &app, const CLI::ParseError &error) {
-  std::string text = app.get_subcommands().empty() && !app.remaining().empty()
-                         ? fmt::format("unknown command or option {}", app.remaining().front())
-                         : error.what();
-  text.erase(text.find_last_not_of('\n') + 1);
-  std::ranges::replace(text, '\n', ' ');
-  return text + " (see pmdsim --help)";
-}
-
 } // namespace
 
 std::optional<Options> parse_options(int argument_count, const char *const *arguments) {
@@ -258,11 +248,13 @@ std::optional<Options> parse_options(int argument_count, const char *const *argu
   add_commands(app, written);
   std::vector<std::string> manual;
   add_manual(app, manual);
+  const std::vector<std::string> words(arguments + std::min(argument_count, 1), arguments + argument_count);
+  refuse_misread(app, words);
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::ParseError &error) {
     if (error.get_exit_code() != 0)
-      throw Error(ExitCode::usage, parse_failure(app, error));
+      throw Error(ExitCode::usage, usage_problem(app, error, words));
     app.exit(error);
     return std::nullopt;
   }

@@ -36,12 +36,14 @@ inline constexpr std::array warning_kinds{
     WarningKind{"full-taps", "Taps will be full, as too many electrons are counted."},
     WarningKind{"lambert-for-bounces", "Light that bounces takes shiny materials for matt ones."},
     WarningKind{"mode-left-out", "A mode that cannot reach the accuracy asked for is left out."},
+    WarningKind{"no-camera-node", "A sensor is at a node without a camera, in a scene that has cameras."},
     WarningKind{"no-locks", "The output's file system has no locks."},
     WarningKind{"nothing-in-view", "No ray of a sensor meets the scene."},
     WarningKind{"other-light-unused", "Light of other cameras meets a sensor without electronics."},
     WarningKind{"points-without-bounces", "Light that bounces does not heed points."},
     WarningKind{"tap-by-tap-exact", "Taps that are taken one after the other are measured in mode exact."},
     WarningKind{"unseen-harmonics", "None of a waveform's harmonics shows in the taps."},
+    WarningKind{"unusual-value", "A value is so unusual that it may be in another unit than was meant."},
 };
 
 // The code itself; one that is not in the table does not compile.

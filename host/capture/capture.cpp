@@ -54,8 +54,8 @@ bool has_distances(const std::set<Format> &formats) {
 SetupDocument requested_document(const CaptureRequest &request, const std::filesystem::path &file) {
   SetupDocument document = read_setup_document(file);
   if (request.poses)
-    change(document, changes_for(*request.poses, document));
-  change(document, request.changes);
+    change(document, changes_for(*request.poses, document), "--poses");
+  change(document, request.changes, "--set");
   return document;
 }
 

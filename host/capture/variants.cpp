@@ -57,9 +57,9 @@ json changes_for(const PosesFromFile &poses, const SetupDocument &document) {
   return {{of + "/pose", trajectory}, {"frames", trajectory}};
 }
 
-std::vector<json> read_variants(const std::filesystem::path &file) {
+std::vector<VariantLine> read_variants(const std::filesystem::path &file) {
   const std::string text = read_text_file(file, Place{file});
-  std::vector<json> variants;
+  std::vector<VariantLine> variants;
   std::size_t before = 0; // lines
   for (std::string_view rest = text; !rest.empty(); ++before) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -70,8 +70,8 @@ std::vector<json> read_variants(const std::filesystem::path &file) {
     const TextPlace place{file, before + 1};
     if (variants.size() == most_variants)
       throw input_error(place, fmt::format("expected at most {} variants", most_variants));
-    variants.push_back(json_of_line(line, before, file));
-    if (!variants.back().is_object())
+    variants.push_back({place.line, json_of_line(line, before, file)});
+    if (!variants.back().changes.is_object())
       throw input_error(place, "expected an object of paths and values");
   }
   if (variants.empty())
@@ -82,16 +82,18 @@ std::vector<json> read_variants(const std::filesystem::path &file) {
 std::vector<Variant> variants_of(const std::vector<SetupDocument> &setups,
                                  const std::optional<std::filesystem::path> &variants) {
   refuse_doubled_names(setups);
-  const std::vector<json> changes = variants ? read_variants(*variants) : std::vector<json>{json::object()};
+  const std::vector<VariantLine> lines =
+      variants ? read_variants(*variants) : std::vector<VariantLine>{{0, json::object()}};
   std::vector<Variant> all;
   for (const SetupDocument &setup : setups)
-    for (std::size_t i = 0; i < changes.size(); ++i) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::string number = variants ? fmt::format("{:04}", i) : "";
       const std::string stem = setups.size() > 1 ? setup.file.stem().string() : "";
       const std::string name = variants ? (std::filesystem::path(stem) / number).string() : stem;
-      Variant variant{name, setup, changes[i]};
+      Variant variant{name, setup, lines[i].changes};
       try {
-        change(variant.document, changes[i]);
+        if (variants)
+          change(variant.document, lines[i].changes, fmt::format("{}:{}", variants->string(), lines[i].line));
       } catch (const Error &error) {
         throw Error(error.code(),
                     variants ? fmt::format("{}, in variant {}", error.what(), name) : error.what(),

@@ -27,8 +27,14 @@ struct PosesFromFile {
 // The changes that make a document's sensor, illuminator or node move along them.
 nlohmann::json changes_for(const PosesFromFile &poses, const SetupDocument &document);
 
-// The objects of a file of JSON Lines, one a line, without blank ones. Throws Error (input).
-std::vector<nlohmann::json> read_variants(const std::filesystem::path &file);
+// A line of a file of variants.
+struct VariantLine {
+  std::size_t line;       // from 1
+  nlohmann::json changes; // an object
+};
+
+// The lines of a file of JSON Lines, without blank ones. Throws Error (input).
+std::vector<VariantLine> read_variants(const std::filesystem::path &file);
 
 // Every setup with every variant of it: named SETUP where there are several setups, 0000, 0001, ... where
 // there are variants, SETUP/0000 with both. Throws Error: input; usage, of two setups of one name.

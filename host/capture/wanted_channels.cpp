@@ -2,7 +2,8 @@
 
 #include "engine/model/channel_names.h"
 #include "engine/model/error.h"
-#include "host/input/file/input_error.h"
+#include "host/input/words/near_name.h"
+#include "host/input/words/quotes.h"
 
 #include <fmt/format.h>
 #include <map>
@@ -114,6 +115,9 @@ Error unknown_channel(const std::string &name, std::vector<std::string> known) {
   for (const auto &[group, names] : channel_groups())
     known.push_back(group);
   known.emplace_back(all_name);
+  const std::string meant = did_you_mean(name, known);
+  if (!meant.empty())
+    return {ExitCode::usage, fmt::format("--channels: unknown channel {}{}", in_quotes(name), meant)};
   return no_such_channel("unknown channel " + in_quotes(name), known);
 }
 

@@ -134,7 +134,7 @@ class SetupTest(unittest.TestCase):
                 with self.subTest(name), self.assertRaises(pmdsim.InputError) as caught:
                     pmdsim.render(setup, scene=scene)
                 self.assertEqual((caught.exception.file, caught.exception.place), (name, "/bounces"))
-                self.assertRegex(str(caught.exception), f"^{name or 'the setup'}: /bounces: expected ")
+                self.assertRegex(str(caught.exception), f"^{name or 'the setup'}(:1:[0-9]+)?: /bounces: expected ")
 
     def test_errors_of_changes_name_the_file_that_there_is(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

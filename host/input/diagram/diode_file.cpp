@@ -29,10 +29,11 @@ constexpr NumberRange coordinates_m{-max_coordinate_m, max_coordinate_m};
 constexpr NumberRange intensities_w_sr{0.0, max_intensity_w_sr};
 constexpr NumberRange rolls_deg{-max_roll_deg, max_roll_deg};
 
-glm::dvec3 unit_axis(const glm::dvec3 &axis, const TextPlace &place) {
+glm::dvec3 unit_axis(const Table &row) {
+  const glm::dvec3 axis(row.number(axis_x), row.number(axis_y), row.number(axis_z));
   const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
   if (largest == 0.0)
-    throw input_error(place, "expected an axis, found zero");
+    throw input_error(row.at(axis_x), "expected an axis, as 0, 0, 1 is, found zero");
   return glm::normalize(axis / largest);
 }
 
@@ -40,7 +41,7 @@ Diode diode_of(const Table &row, DiagramFiles &diagrams) {
   Diode diode;
   diode.position_m = {row.number(x_m, coordinates_m), row.number(y_m, coordinates_m),
                       row.number(z_m, coordinates_m)};
-  diode.axis = unit_axis({row.number(axis_x), row.number(axis_y), row.number(axis_z)}, row.here());
+  diode.axis = unit_axis(row);
   diode.intensity_w_sr = row.number(intensity_w_sr, intensities_w_sr);
   diode.pattern = law_in_field(row.text(pattern), row.here(), diagrams);
   const double roll = row.has(roll_deg) ? row.number(roll_deg, rolls_deg) : 0.0;

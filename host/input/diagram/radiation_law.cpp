@@ -3,6 +3,7 @@
 #include "host/input/diagram/diagram_table.h"
 #include "host/input/file/input_file.h"
 #include "host/input/schema/schema_check.h"
+#include "host/input/words/file_kind.h"
 
 #include <algorithm>
 #include <cctype>
@@ -57,6 +58,9 @@ std::shared_ptr<const Diagram> DiagramFiles::read(const std::filesystem::path &f
   if (diagram)
     return diagram;
   const std::string text = read_text_file(file, named_at);
+  if (const std::string kind = kind_of_file(file, text); !is_ies(file) && !kind.empty())
+    throw input_error(Place{file},
+                      fmt::format("is {}, expected IES (.ies) or a table of angles (CSV)", kind));
   DiagramTable table = is_ies(file) ? read_ies(file, text) : read_diagram_csv(file, text);
   values_ += table.values.size();
   if (values_ > max_values)

@@ -1,6 +1,8 @@
 #include "host/input/file/input_file.h"
 
 #include "host/input/file/files_read.h"
+#include "host/input/words/file_kind.h"
+#include "host/input/words/near_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -20,8 +22,8 @@ namespace {
 
 constexpr std::size_t max_text_bytes = std::size_t{1} << 26;
 
-std::string reason(int error) {
-  return error == ENOENT ? "no such file"
+std::string reason(int error, const std::filesystem::path &file) {
+  return error == ENOENT ? "no such file" + absent_file_hint(file)
                          : fmt::format("cannot be read ({})", std::generic_category().message(error));
 }
 
@@ -47,7 +49,7 @@ Stream opened(const std::filesystem::path &file, const AnyPlace &named_at) {
     const int error = errno;
     if (descriptor >= 0)
       close(descriptor);
-    throw refused(file, reason(error), named_at);
+    throw refused(file, reason(error, file), named_at);
   }
   return stream;
 }
@@ -56,7 +58,7 @@ std::size_t size_of_regular(const Stream &stream, const std::filesystem::path &f
                             const AnyPlace &named_at) {
   struct stat status {};
   if (fstat(fileno(stream.get()), &status) != 0)
-    throw refused(file, reason(errno), named_at);
+    throw refused(file, reason(errno, file), named_at);
   if (S_ISDIR(status.st_mode))
     throw refused(file, "is a directory, expected a file", named_at);
   if (!S_ISREG(status.st_mode))
@@ -68,7 +70,7 @@ std::string front_of(const Stream &stream, std::size_t length_bytes, const std::
                      const AnyPlace &named_at) {
   std::string bytes(length_bytes, '\0');
   if (std::fread(bytes.data(), 1, length_bytes, stream.get()) != length_bytes)
-    throw refused(file, std::ferror(stream.get()) ? reason(errno) : "became shorter while it was read",
+    throw refused(file, std::ferror(stream.get()) ? reason(errno, file) : "became shorter while it was read",
                   named_at);
   FilesRead::note(file, bytes);
   return bytes;
@@ -97,6 +99,8 @@ std::string read_front_of_regular_file(const std::filesystem::path &file, std::s
 
 std::string read_text_file(const std::filesystem::path &file, const AnyPlace &named_at) {
   std::string text = read_regular_file(file, max_text_bytes, named_at);
+  if (const std::string kind = kind_of_file("", text); !kind.empty() && !kind.starts_with("an IES"))
+    throw input_error(Place{file}, "is " + kind + ", expected text");
   const auto nul = std::ranges::find(text, '\0'); // readers would take it for the end of a field
   if (nul != text.end())
     throw input_error(TextPlace{file, static_cast<std::size_t>(std::count(text.begin(), nul, '\n')) + 1},

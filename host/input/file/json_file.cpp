@@ -1,6 +1,8 @@
 #include "host/input/file/json_file.h"
 
 #include "host/input/file/input_error.h"
+#include "host/input/file/json_position.h"
+#include "host/input/file/json_syntax.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,35 +17,29 @@ using nlohmann::json;
 
 namespace {
 
-// The message of nlohmann's exception without its name: what was expected, without the offending text.
-std::string syntax_problem(const json::exception &exception) {
+// Of what is written well: a number or a byte.
+std::string library_problem(const json::exception &exception) {
   const std::string_view what = exception.what();
   if (what.find("number overflow") != what.npos)
     return "number too large";
-  const std::size_t expected = what.rfind("; expected ");
-  if (expected != what.npos)
-    return fmt::format("not valid JSON, {}", what.substr(expected + 2));
-  const std::size_t begin = what.find(" - ");
-  const std::size_t end = what.find("; last read");
-  return begin < end && end != what.npos
-             ? fmt::format("not valid JSON, {}", what.substr(begin + 3, end - begin - 3))
+  return what.find("UTF-8") != what.npos
+             ? "not valid JSON, expected UTF-8, found another byte: save the file as UTF-8"
              : "not valid JSON";
 }
 
 Error syntax_error(std::string_view text, std::size_t position, const std::filesystem::path &file,
-                   const json::exception &exception) {
-  const std::string_view before =
-      text.substr(0, std::min(std::max<std::size_t>(position, 1) - 1, text.size()));
-  const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
-  const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 is 0
-  const std::size_t column = before.size() - line_start + 1;
-  return input_error(TextPlace{file, line, column}, syntax_problem(exception));
+                   Comments comments, const json::exception &exception) {
+  if (const auto problem = json_problem(text, comments == Comments::allowed))
+    return input_error(text_place(file, text, problem->at), "not valid JSON, " + problem->message);
+  const std::size_t offset = std::min(std::max<std::size_t>(position, 1) - 1, text.size());
+  return input_error(text_place(file, text, offset), library_problem(exception));
 }
 
 // Reads a document without building it, so that nothing deep or doubled is ever built.
 class Guard : public nlohmann::json_sax<json> {
 public:
-  Guard(std::string_view text, const std::filesystem::path &file) : text_(text), file_(file) {}
+  Guard(std::string_view text, const std::filesystem::path &file, Comments comments)
+      : text_(text), file_(file), comments_(comments) {}
 
   bool null() override { return value(); }
   bool boolean(bool) override { return value(); }
@@ -60,13 +56,13 @@ public:
   bool key(string_t &name) override {
     Container &object = open_.back();
     if (!object.keys.insert(name).second)
-      throw input_error(here(open_.size() - 1), fmt::format("key {} appears twice", in_quotes(name)));
+      throw doubled(name);
     object.key = name;
     return true;
   }
 
   bool parse_error(std::size_t position, const std::string &, const json::exception &exception) override {
-    throw syntax_error(text_, position, file_, exception);
+    throw syntax_error(text_, position, file_, comments_, exception);
   }
 
 private:
@@ -83,6 +79,19 @@ private:
     for (std::size_t i = 0; i < depth; ++i)
       place = open_[i].is_array ? place / open_[i].index : place / open_[i].key;
     return place;
+  }
+
+  // Names both lines, the place being the object's.
+  Error doubled(const std::string &name) const {
+    const Place object = here(open_.size() - 1);
+    const auto line_of = [&](int occurrence) {
+      const auto position = position_in_json(text_, object.pointer / name, occurrence);
+      return text_place(file_, text_, position ? position->key : 0);
+    };
+    const std::string within = object.pointer.empty() ? "" : object.pointer.to_string() + ": ";
+    const Error error = input_error(line_of(2), fmt::format("{}key {} appears twice, first in line {}",
+                                                            within, in_quotes(name), line_of(1).line));
+    return {error.code(), error.what(), {file_.string(), object.pointer.to_string()}};
   }
 
   bool value() {
@@ -106,6 +115,7 @@ private:
 
   std::string_view text_;
   const std::filesystem::path &file_;
+  Comments comments_;
   std::vector<Container> open_;
 };
 
@@ -121,7 +131,7 @@ void make_integer(json &number) {
 
 json parse_json(std::string_view text, const std::filesystem::path &file, Comments comments) {
   const bool ignore_comments = comments == Comments::allowed;
-  Guard guard(text, file);
+  Guard guard(text, file, comments);
   json::sax_parse(text.begin(), text.end(), &guard, json::input_format_t::json, true, ignore_comments);
   const auto with_integers = [](int, json::parse_event_t, json &parsed) {
     if (parsed.is_number_float())

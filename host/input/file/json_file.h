@@ -14,8 +14,8 @@ inline constexpr std::size_t max_json_depth = 64; // objects and arrays within e
 
 // A number without a fractional part is an integer in the result, even if it is written as 8.0 or 2e7.
 // `file` is named in errors only. Throws Error (input): "FILE:LINE:COLUMN: ..." for a syntax error, a number
-// beyond double or bytes that are not UTF-8; "FILE: POINTER: ..." for a doubled key or a document that is
-// nested too deep.
+// beyond double or bytes that are not UTF-8, "FILE:LINE:COLUMN: POINTER: ..." for a doubled key, "FILE: ..."
+// for a document that is nested too deep.
 nlohmann::json parse_json(std::string_view text, const std::filesystem::path &file, Comments comments);
 
 } // namespace pmdsim

@@ -4,9 +4,11 @@
 #include "host/input/file/json_file.h"
 #include "host/input/gltf/extensions.h"
 #include "host/input/schema/schema_check.h"
+#include "host/input/words/file_kind.h"
 
 #include <cstdint>
 #include <fmt/format.h>
+#include <memory>
 #include <string_view>
 
 namespace pmdsim {
@@ -67,6 +69,15 @@ Text split_glb(std::string_view bytes, const Place &whole_file) {
   return {first.bytes, second.type == bin_chunk ? second.bytes : std::string_view{}};
 }
 
+void refuse_other_kinds(std::string_view bytes, const Place &whole_file) {
+  constexpr std::string_view expected = "expected glTF 2.0 (.gltf or .glb)";
+  const std::string kind = kind_of_file(whole_file.file, bytes);
+  if (!kind.empty())
+    throw input_error(whole_file, fmt::format("is {}, {}", kind, expected));
+  if (bytes.empty())
+    throw input_error(whole_file, fmt::format("is empty, {}", expected));
+}
+
 void refuse_other_versions(const json &document, const Place &root) {
   const std::string version = document.at("asset").at("version");
   if (!version.starts_with("2."))
@@ -76,14 +87,19 @@ void refuse_other_versions(const json &document, const Place &root) {
 } // namespace
 
 GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &named_at) {
-  const std::string bytes = read_regular_file(file, max_gltf_file_bytes, named_at);
-  const Place root{file};
-  const bool is_glb = std::string_view(bytes).starts_with(glb_magic);
-  const Text text = is_glb ? split_glb(bytes, root) : Text{bytes, {}};
+  const auto bytes =
+      std::make_shared<const std::string>(read_regular_file(file, max_gltf_file_bytes, named_at));
+  const bool is_glb = std::string_view(*bytes).starts_with(glb_magic);
+  Place root{file};
+  if (!is_glb)
+    refuse_other_kinds(*bytes, root);
+  const Text text = is_glb ? split_glb(*bytes, root) : Text{*bytes, {}};
   static const json schema = json::parse(gltf_schema_text);
 
   GltfDocument document{parse_json(text.json, file, Comments::refused), std::string(text.binary_chunk)};
-  check_schema(document.json, schema, file);
+  if (!is_glb) // whose lines nobody sees
+    root.source = std::make_shared<const JsonSource>(JsonSource{bytes});
+  check_schema(document.json, schema, root);
   refuse_other_versions(document.json, root);
   refuse_other_extensions(document.json, root);
   check_references(document.json, root);

@@ -5,6 +5,7 @@
 #include "host/input/gltf/document.h"
 #include "host/input/gltf/material/material.h"
 #include "host/input/gltf/mesh/mesh.h"
+#include "host/input/words/near_name.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -97,6 +98,10 @@ std::string object_name(const tinygltf::Model &model, const SceneNode &naming) {
   return name.empty() ? fmt::format("node {}", naming.index) : name;
 }
 
+std::string mesh_name(const tinygltf::Model &model, const tinygltf::Node &node) {
+  return node.mesh < 0 ? "" : model.meshes[static_cast<std::size_t>(node.mesh)].name;
+}
+
 // `placement_of` gives that of each of the mesh's primitives.
 template <class PlacementOf>
 void append_object(const tinygltf::Model &model, const tinygltf::Node &node, const std::string &name,
@@ -135,13 +140,21 @@ std::vector<std::string> GltfFile::materials_beyond_lambert() const {
   return found;
 }
 
+std::vector<NamedNode> GltfFile::named_nodes() const {
+  std::vector<NamedNode> named;
+  for (const SceneNode &node : nodes_)
+    if (const tinygltf::Node &of = model_->nodes[node.index]; !of.name.empty())
+      named.push_back({of.name, {}, mesh_name(*model_, of)});
+  return named;
+}
+
 std::vector<NodePlacement> GltfFile::placements(const std::vector<PlacedNode> &placed) const {
   std::vector<NodePlacement> result;
   for (const PlacedNode &each : placed) {
     const auto is_it = [&](const SceneNode &node) { return model_->nodes[node.index].name == each.name; };
     const auto node = std::ranges::find_if(nodes_, is_it);
     if (node == nodes_.end())
-      throw input_error(each.place, fmt::format("no node {} in {}", in_quotes(each.name), file_.string()));
+      throw input_error(each.place, absent_node_text(each.name, file_, named_nodes()));
     if (std::ranges::count_if(nodes_, is_it) > 1)
       throw input_error(each.place,
                         fmt::format("more than one node {} in {}", in_quotes(each.name), file_.string()));
@@ -170,12 +183,27 @@ GltfScene GltfFile::at(double time_s, const std::vector<PlacedNode> &placed) con
                  : Placement(skins_.weights.at({node.mesh, primitive}), world_from_skin.at(node.skin));
     };
     if (!node.name.empty())
-      result.nodes.push_back({node.name, world_from[i]});
+      result.nodes.push_back({node.name, world_from[i], mesh_name(*model_, node), node.camera >= 0});
     if (node.mesh >= 0)
       append_object(*model_, node, object_name(*model_, nodes[naming[i]]), placement_of, root, surfaces,
                     result.scene);
   }
   return result;
+}
+
+std::string absent_node_text(const std::string &name, const std::filesystem::path &file,
+                             const std::vector<NamedNode> &nodes) {
+  const std::string text = fmt::format("no node {} in {}", in_quotes(name), file.string());
+  if (nodes.empty())
+    return text + ", whose nodes have no names";
+  const auto of_mesh = std::ranges::find(nodes, name, &NamedNode::mesh);
+  if (of_mesh != nodes.end())
+    return fmt::format("{}; it is the mesh of the node {}", text, in_quotes(of_mesh->name));
+  std::vector<std::string> names;
+  for (const NamedNode &node : nodes)
+    names.push_back(node.name);
+  const std::string meant = did_you_mean(name, names);
+  return text + (meant.empty() ? "; expected " + listed_names(names) : meant);
 }
 
 GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at) {

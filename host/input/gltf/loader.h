@@ -24,6 +24,8 @@ class GltfMaterials;
 struct NamedNode {
   std::string name;
   AffineTransform world_from_node;
+  std::string mesh{}; // the name of its mesh, if it has one
+  bool is_camera = false;
 };
 
 // Where a named node is put: NodePlacement.
@@ -58,6 +60,7 @@ public:
   GltfScene at(double time_s, const std::vector<PlacedNode> &placed = {}) const;
 
 private:
+  std::vector<NamedNode> named_nodes() const; // without their transforms
   std::vector<NodePlacement> placements(const std::vector<PlacedNode> &placed) const;
 
   std::filesystem::path file_;
@@ -67,6 +70,10 @@ private:
   Animation animation_;
   Skins skins_;
 };
+
+// That a file has no such node, and which was meant or which there are.
+std::string absent_node_text(const std::string &name, const std::filesystem::path &file,
+                             const std::vector<NamedNode> &nodes);
 
 // Throws Error (input): an error in the file is told at its place there ("scene.gltf: /accessors/3: ..."), a
 // file that cannot be read at `named_at`, the place that names it. Features of glTF that the simulator does

@@ -1,6 +1,7 @@
 #include "host/input/schema/schema_check.h"
 
-#include "host/input/file/input_error.h"
+#include "host/input/schema/hints.h"
+#include "host/input/words/near_name.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -179,13 +180,76 @@ bool is_closed(const json &root, const json &schema) {
   return schema.value("additionalProperties", json(true)) == false;
 }
 
+// The keys that may stand in what the schema describes.
+std::vector<std::string> known_keys(const json &root, const json &schema) {
+  std::vector<std::string> keys;
+  const json properties = schema.value("properties", json::object());
+  for (const auto &[key, property] : properties.items())
+    keys.push_back(key);
+  for (const json &alternative : schema.value("anyOf", json::array()))
+    for (std::string &key : known_keys(root, resolved(root, alternative)))
+      if (std::ranges::find(keys, key) == keys.end())
+        keys.push_back(std::move(key));
+  return keys;
+}
+
+// Texts that may stand where the schema describes a value.
+std::vector<std::string> known_texts(const json &root, const json &schema) {
+  std::vector<std::string> texts;
+  const auto add = [&](const json &value) {
+    if (value.is_string())
+      texts.push_back(value);
+  };
+  if (schema.contains("const"))
+    add(schema.at("const"));
+  for (const json &value : schema.value("enum", json::array()))
+    add(value);
+  for (const json &alternative : schema.value("anyOf", json::array()))
+    std::ranges::move(known_texts(root, resolved(root, alternative)), std::back_inserter(texts));
+  return texts;
+}
+
+// Where in a document a key may stand, at `at` or below; of an array the first element. Nothing where it may
+// not.
+std::optional<json::json_pointer> holder_of(const std::string &key, const json &root, const json &schema,
+                                            const json::json_pointer &at = json::json_pointer()) {
+  const json &whole = resolved(root, schema);
+  const json properties = whole.value("properties", json::object());
+  if (properties.contains(key))
+    return at;
+  for (const auto &[name, property] : properties.items())
+    if (const auto found = holder_of(key, root, property, at / name))
+      return found;
+  for (const json &alternative : whole.value("anyOf", json::array()))
+    if (const auto found = holder_of(key, root, alternative, at))
+      return found;
+  const auto items = whole.find("items");
+  return items != whole.end() && items->is_object() ? holder_of(key, root, *items, at / 0) : std::nullopt;
+}
+
+// Whether both are objects of one kind, "/sensors/0/pose" and "/illuminators/1/pose".
+bool are_alike(const json::json_pointer &a, const json::json_pointer &b) {
+  return !a.empty() && !b.empty() && a.back() == b.back();
+}
+
+Error unknown_key(const json &root, const Spot &spot, const std::string &key) {
+  const std::vector<std::string> known = known_keys(root, *spot.schema);
+  std::string hint = key_hint(key, known);
+  if (const auto holder = hint.empty() ? holder_of(key, root, root) : std::nullopt;
+      holder && !are_alike(*holder, spot.place.pointer))
+    hint = "; it belongs to " + (holder->empty() ? "the outermost object" : holder->to_string());
+  if (hint.empty() && !known.empty())
+    hint = "; expected " + listed_names(known);
+  return key_error(spot.place, key, fmt::format("unknown key {}{}", in_quotes(key), hint));
+}
+
 std::optional<Error> wrong_key(const json &root, const Spot &spot) {
   if (!spot.value->is_object())
     return std::nullopt;
   if (is_closed(root, *spot.schema))
     for (const auto &[key, value] : spot.value->items())
       if (!knows(root, *spot.schema, key))
-        return input_error(spot.place, fmt::format("unknown key {}", in_quotes(key)));
+        return unknown_key(root, spot, key);
   for (const json &key : spot.schema->value("required", json::array()))
     if (!spot.value->contains(key.get_ref<const std::string &>()))
       return input_error(spot.place, fmt::format("missing key {}", key.dump()));
@@ -203,8 +267,8 @@ std::string shown(const json &value) {
 // The way towards a failure, as far as the alternatives lead that the document has chosen. `context` is
 // valijson's: "<root>", then a "[key]" or "[index]" for each step.
 std::vector<Spot> way_to(const std::vector<std::string> &context, const json &document, const json &root,
-                         const std::filesystem::path &file) {
-  std::vector<Spot> way{{Place{file}, &chosen(root, root, document), &document}};
+                         const Place &whole) {
+  std::vector<Spot> way{{whole, &chosen(root, root, document), &document}};
   for (std::size_t i = 1; i < context.size(); ++i) {
     const auto next = step(root, way.back(), context[i].substr(1, context[i].size() - 2));
     if (!next)
@@ -217,12 +281,12 @@ std::vector<Spot> way_to(const std::vector<std::string> &context, const json &do
 // valijson tells the failures of all alternatives, and each again on the way out. The deepest in the chosen
 // ones is the cause, the others follow from it.
 Spot deepest_failure(const valijson::ValidationResults &failures, const json &document, const json &root,
-                     const std::filesystem::path &file) {
-  std::vector<Spot> deepest = way_to({}, document, root, file);
+                     const Place &whole) {
+  std::vector<Spot> deepest = way_to({}, document, root, whole);
   for (const auto &failure : failures) {
     if (failure.context.size() <= deepest.size()) // cannot lead deeper; there may be a million of these
       continue;
-    const std::vector<Spot> way = way_to(failure.context, document, root, file);
+    const std::vector<Spot> way = way_to(failure.context, document, root, whole);
     const bool is_of_another =
         way.back().schema->contains("const") && way.back().schema->at("const") == *way.back().value;
     if (way.size() > deepest.size() && !is_of_another)
@@ -234,8 +298,12 @@ Spot deepest_failure(const valijson::ValidationResults &failures, const json &do
 Error explained(const Spot &spot, const json &root) {
   if (auto error = wrong_key(root, spot))
     return *error;
-  return input_error(
-      spot.place, fmt::format("expected {}, found {}", expectation(root, *spot.schema), shown(*spot.value)));
+  const std::string hint = spot.value->is_string() ? text_hint(spot.value->get_ref<const std::string &>(),
+                                                               known_texts(root, *spot.schema))
+                                                   : std::string();
+  return input_error(spot.place, fmt::format("expected {}, found {}{}", expectation(root, *spot.schema),
+                                             shown(*spot.value),
+                                             hint.empty() ? value_hint(*spot.schema, *spot.value) : hint));
 }
 
 ordered_json filled(const ordered_json &root, const ordered_json &schema_or_anyof, const json &value) {
@@ -265,12 +333,12 @@ ordered_json filled(const ordered_json &root, const ordered_json &schema_or_anyo
 
 } // namespace
 
-void check_schema(const json &document, const json &schema_document, const std::filesystem::path &file) {
+void check_schema(const json &document, const json &schema_document, const Place &root) {
   valijson::Schema schema;
   valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
   valijson::ValidationResults failures;
   if (!valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &failures))
-    throw explained(deepest_failure(failures, document, schema_document, file), schema_document);
+    throw explained(deepest_failure(failures, document, schema_document, root), schema_document);
 }
 
 std::string expected_value(const json &schema, const json &part) { return expectation(schema, part); }

@@ -2,7 +2,8 @@
 // Documents beside JSON Schemas: checks that say in one line what is wrong, where, and what was expected, and
 // defaults.
 
-#include <filesystem>
+#include "host/input/file/input_error.h"
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -13,9 +14,8 @@ namespace pmdsim {
 extern const std::string_view setup_schema_text; // a setup file
 extern const std::string_view gltf_schema_text;  // the parts of glTF 2.0 that are read
 
-// A wrong key or value is thrown as Error (input) with its JSON pointer in `file`.
-void check_schema(const nlohmann::json &document, const nlohmann::json &schema,
-                  const std::filesystem::path &file);
+// A wrong key or value is thrown as Error (input) with its place in the document, which is at `root`.
+void check_schema(const nlohmann::json &document, const nlohmann::json &schema, const Place &root);
 
 // The value that a part of a schema asks for, as errors say it: "an integer from 1 to 16".
 std::string expected_value(const nlohmann::json &schema, const nlohmann::json &part);

@@ -3,6 +3,8 @@
 #include "host/input/file/input_error.h"
 #include "host/input/file/input_file.h"
 #include "host/input/file/json_file.h"
+#include "host/input/words/file_kind.h"
+#include "host/input/words/near_name.h"
 
 #include <algorithm>
 #include <charconv>
@@ -18,6 +20,15 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t max_setup_bytes = std::size_t{1} << 22;
+
+// In place of what its bytes mean as JSON.
+void refuse_other_kinds(std::string_view bytes, const Place &whole_file) {
+  const std::string kind = kind_of_file(whole_file.file, bytes);
+  if (!kind.empty())
+    throw input_error(whole_file, fmt::format("is {}, expected a setup (JSON)", kind));
+  if (bytes.empty())
+    throw input_error(whole_file, "is empty, expected a setup (JSON)");
+}
 
 // The parts of a JSON pointer (RFC 6901). Nothing where it is none.
 std::optional<std::vector<std::string>> parts_of(const std::string &path) {
@@ -46,14 +57,22 @@ std::optional<std::size_t> index_in(const json &array, const std::string &part) 
   return named == array.end() ? std::nullopt : std::optional(static_cast<std::size_t>(named - array.begin()));
 }
 
-void put(json &document, const std::filesystem::path &file, const std::string &path, const json &value) {
+// The names of an array's elements.
+std::vector<std::string> names_in(const json &array) {
+  std::vector<std::string> names;
+  for (const json &element : array)
+    if (element.is_object() && element.contains("name") && element.at("name").is_string())
+      names.push_back(element.at("name"));
+  return names;
+}
+
+// `what` begins messages, with the path. Returns the value's JSON pointer.
+std::string put(json &document, Place place, const std::string &path, const json &value,
+                const std::string &what) {
   const auto parts = parts_of(path);
   if (!parts || path.empty())
-    throw input_error(
-        Place{file},
-        fmt::format("cannot set {}: expected a path such as sensors/0/focal_length_m", in_quotes(path)));
+    throw input_error(place, what + ": expected a path such as sensors/0/focal_length_m");
   json *at = &document;
-  Place place{file};
   for (const std::string &part : *parts) {
     if (at->is_null())
       *at = json::object();
@@ -64,22 +83,29 @@ void put(json &document, const std::filesystem::path &file, const std::string &p
       const auto index = index_in(*at, part);
       if (!index)
         throw input_error(place,
-                          fmt::format("cannot set {}: expected the index or the name of one of {}, found {}",
-                                      in_quotes(path), at->size(), in_quotes(part)));
+                          fmt::format("{}: expected the index or the name of one of {}, found {}{}", what,
+                                      at->size(), in_quotes(part), did_you_mean(part, names_in(*at))));
       at = &at->at(*index);
       place = place / *index;
     } else {
-      throw input_error(place, fmt::format("cannot set {}: expected an object or an array here, found {}",
-                                           in_quotes(path), in_quotes(at->dump())));
+      throw input_error(place, fmt::format("{}: expected an object or an array here, found {}", what,
+                                           in_quotes(at->dump())));
     }
   }
   *at = value;
+  return place.pointer.to_string();
 }
 
 } // namespace
 
 SetupDocument read_setup_document(const std::filesystem::path &file) {
-  return parse_setup_document(read_regular_file(file, max_setup_bytes, Place{file}), file);
+  auto text = std::make_shared<const std::string>(read_regular_file(file, max_setup_bytes, Place{file}));
+  refuse_other_kinds(*text, Place{file});
+  SetupDocument document = parse_setup_document(*text, file);
+  if (document.json.is_object() && document.json.contains("asset") && document.json.contains("nodes"))
+    throw input_error(Place{file}, "is a glTF scene, expected a setup, which names it as its \"scene\"");
+  document.source = std::make_shared<const JsonSource>(JsonSource{std::move(text)});
+  return document;
 }
 
 SetupDocument parse_setup_document(std::string_view text, const std::filesystem::path &file) {
@@ -92,13 +118,17 @@ std::string escaped(std::string name) {
   return name;
 }
 
-void change(SetupDocument &document, const json &values) {
+void change(SetupDocument &document, const json &values, const std::string &by) {
   if (!values.is_object())
     throw input_error(Place{document.file}, "cannot set anything: expected an object of paths and values");
   json changed = document.json;
-  for (const auto &[path, value] : values.items())
-    put(changed, document.file, path, value);
+  auto source = std::make_shared<JsonSource>(document.source ? *document.source : JsonSource{});
+  for (const auto &[path, value] : values.items()) {
+    const std::string what = fmt::format("{}cannot set {}", by.empty() ? "" : by + " ", in_quotes(path));
+    source->changes[put(changed, document.root(), path, value, what)] = by;
+  }
   document.json = std::move(changed);
+  document.source = std::move(source);
 }
 
 } // namespace pmdsim

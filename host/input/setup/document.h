@@ -1,7 +1,10 @@
 #pragma once
 // A setup as its JSON says it, and changes to it, before anything is made of it.
 
+#include "host/input/file/input_error.h"
+
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -12,6 +15,9 @@ struct SetupDocument {
   std::filesystem::path file;                        // names it in errors
   nlohmann::json json{};                             // unchecked, without presets and defaults
   std::filesystem::path folder = file.parent_path(); // where relative paths in it start
+  std::shared_ptr<const JsonSource> source{};        // null: errors tell no line
+
+  Place root() const { return {.file = file, .folder = folder, .source = source}; }
 };
 
 // Throws Error (input).
@@ -23,7 +29,8 @@ std::string escaped(std::string name);
 
 // Puts the values of an object into the document: its keys are JSON pointers, with or without the first
 // slash, where an element of an array may be given by its "name". What lies on the way is made where it is
-// absent, but for elements of arrays. Throws Error (input), and changes nothing then.
-void change(SetupDocument &document, const nlohmann::json &values);
+// absent, but for elements of arrays. `by` is who changes it, for errors, as "--set". Throws Error (input),
+// and changes nothing then.
+void change(SetupDocument &document, const nlohmann::json &values, const std::string &by = "");
 
 } // namespace pmdsim

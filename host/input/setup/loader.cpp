@@ -4,6 +4,7 @@
 #include "host/input/schema/schema_check.h"
 #include "host/input/setup/free_pose.h"
 #include "host/input/setup/parts.h"
+#include "host/input/words/near_name.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -50,8 +51,8 @@ ordered_json checked_setup(const SetupDocument &source) {
   static const ordered_json ordered_schema = ordered_json::parse(setup_schema_text);
   json document = source.json;
   fill_presets(document);
-  check_schema(document, schema, source.file);
-  refuse_second_pattern(document, Place{source.file});
+  check_schema(document, schema, source.root());
+  refuse_second_pattern(document, source.root());
   return with_all_defaults(document, ordered_schema);
 }
 
@@ -163,6 +164,9 @@ void set_sensors_and_illuminators(const Place &root, const Surroundings &at, Set
 }
 
 void warn(const SceneSource &source, const Place &root, Setup &setup) {
+  for (std::size_t i = 0; i < setup.start.sensors.size(); ++i)
+    std::ranges::copy(unit_doubts(setup.start.sensors[i], root / "sensors" / i),
+                      std::back_inserter(setup.warnings));
   warn_of_unused_others(root / "sensors", setup);
   warn_of_unseen_harmonics(root / "sensors", setup);
   if (setup.start.scene.shape_count() == 0)
@@ -171,6 +175,22 @@ void warn(const SceneSource &source, const Place &root, Setup &setup) {
                       "the scene has neither triangles nor points, nothing will be seen"));
   if (setup.bounces.any() && source.gltf)
     std::ranges::copy(bounce_warnings(setup.start.scene, *source.gltf), std::back_inserter(setup.warnings));
+}
+
+// A sensor at another node is likely at the wrong one where the scene has cameras.
+void warn_of_no_cameras(const std::vector<NamedNode> &nodes, const Place &sensors, Setup &setup) {
+  std::vector<std::string> cameras;
+  for (const NamedNode &node : nodes)
+    if (node.is_camera)
+      cameras.push_back(node.name);
+  const ordered_json &all = setup.as_used.at("sensors");
+  for (std::size_t i = 0; i < all.size() && !cameras.empty(); ++i) {
+    const std::string name = all.at(i).at("pose").value("node", "");
+    if (!name.empty() && std::ranges::find(cameras, name) == cameras.end())
+      setup.warnings.push_back(input_warning(warning_code("no-camera-node"), sensors / i / "pose" / "node",
+                                             fmt::format("the node {} is no camera, while the scene has {}",
+                                                         in_quotes(name), listed_names(cameras))));
+  }
 }
 
 // `setup` has its as_used and its frames; `scene` is that of the source at their start.
@@ -182,6 +202,7 @@ void fill(const SceneSource &source, GltfScene scene, const Place &root, Traject
   setup.shadows = setup.as_used.at("shadows") == "auto" ? Shadows::automatic : Shadows::off;
   setup.bounces = bounces_of(setup.as_used, root);
   set_sensors_and_illuminators(root, {scene, trajectories, setup.frames.start_s}, setup);
+  warn_of_no_cameras(scene.nodes, root / "sensors", setup);
   setup.start.scene = std::move(scene.scene);
   warn(source, root, setup);
   if ((source.gltf && source.gltf->moves()) || has_trajectory(setup.as_used))
@@ -208,7 +229,7 @@ SetupLoader::SetupLoader(SetupLoader &&) noexcept = default;
 SetupLoader &SetupLoader::operator=(SetupLoader &&) noexcept = default;
 
 Setup SetupLoader::load(const SetupDocument &document) {
-  const Place root{.file = document.file, .folder = document.folder};
+  const Place root = document.root();
   const std::filesystem::path &folder = document.folder;
   check_frames(document, root);
   Setup setup;
@@ -238,7 +259,7 @@ Setup SetupLoader::load(const SetupDocument &document) {
 }
 
 Setup SetupLoader::load(const SetupDocument &document, const std::shared_ptr<const Scene> &given) {
-  const Place root{.file = document.file, .folder = document.folder};
+  const Place root = document.root();
   check_frames(document, root);
   SetupDocument with_scene = document;
   if (with_scene.json.is_object() && with_scene.json.contains("scene"))

@@ -40,6 +40,9 @@ std::vector<PlacedNode> placed_nodes(const nlohmann::ordered_json &setup, const 
 // The trajectories that the setup names. Throws Error (input).
 Trajectories read_trajectories(const nlohmann::ordered_json &setup, const Place &root);
 
+// What of the sensor at `place` is likely to be in another unit than was meant.
+std::vector<Warning> unit_doubts(const Sensor &sensor, const Place &place);
+
 // An element of /sensors. Throws Error (input): also for a distortion that folds over inside the image and a
 // chip that is not in front of the lens.
 Sensor sensor_of(const nlohmann::ordered_json &sensor, const Place &place, const Surroundings &at);

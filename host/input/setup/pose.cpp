@@ -3,6 +3,7 @@
 #include "host/input/setup/free_pose.h"
 #include "host/input/setup/parts.h"
 #include "host/input/setup/rotations.h"
+#include "host/input/words/near_name.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ Pose looking_at(const ordered_json &pose, const Place &place) {
   const auto position_m = pose.at("position_m").get<glm::dvec3>();
   const auto forward = direction_of(pose.at("look_at_m").get<glm::dvec3>() - position_m);
   if (!forward)
-    throw input_error(place / "look_at_m", "expected a point other than position_m");
+    throw input_error(place / "look_at_m", "expected a point other than position_m, found the same");
   const auto up = direction_of(pose.at("up").get<glm::dvec3>());
   if (!up)
     throw input_error(place / "up", "expected a direction, found zero");
@@ -35,7 +36,7 @@ Pose at_node(const std::string &name, const Place &place, const GltfScene &scene
   const std::string quoted = in_quotes(name), file = scene.file.string();
   const auto node = std::ranges::find(scene.nodes, name, &NamedNode::name);
   if (node == scene.nodes.end())
-    throw input_error(place, fmt::format("no node {} in {}", quoted, file));
+    throw input_error(place, absent_node_text(name, scene.file, scene.nodes));
   if (std::ranges::count(scene.nodes, name, &NamedNode::name) > 1)
     throw input_error(place, fmt::format("more than one node {} in {}", quoted, file));
   if (!is_position(node->world_from_node.translation_m))
@@ -50,8 +51,14 @@ Pose at_node(const std::string &name, const Place &place, const GltfScene &scene
 
 Pose at_sensor(const std::string &name, const Place &place, const std::vector<Sensor> &sensors) {
   const auto sensor = std::ranges::find(sensors, name, &Sensor::name);
-  if (sensor == sensors.end())
-    throw input_error(place, fmt::format("no sensor {} in this setup", in_quotes(name)));
+  if (sensor == sensors.end()) {
+    std::vector<std::string> names;
+    for (const Sensor &each : sensors)
+      names.push_back(each.name);
+    const std::string meant = did_you_mean(name, names);
+    throw input_error(place, fmt::format("no sensor {} in this setup{}", in_quotes(name),
+                                         meant.empty() ? "; expected " + listed_names(names) : meant));
+  }
   return sensor->world_from_camera;
 }
 

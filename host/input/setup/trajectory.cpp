@@ -3,6 +3,7 @@
 #include "host/input/file/input_file.h"
 #include "host/input/schema/limits.h"
 #include "host/input/setup/rotations.h"
+#include "host/input/words/near_name.h"
 
 #include <algorithm>
 #include <array>
@@ -70,8 +71,15 @@ Columns columns_of(std::string_view header, const TextPlace &place) {
                         : name == expected[i];
     };
     const auto found = std::ranges::find_if(fields, is_it);
-    if (found == fields.end())
-      throw input_error(place, fmt::format("missing column {}", expected[i]));
+    if (found == fields.end()) {
+      std::vector<std::string> unknown;
+      for (const std::string_view field : fields)
+        if (std::ranges::find(expected, field) == expected.end())
+          unknown.emplace_back(field);
+      const auto near = nearest_name(expected[i], unknown);
+      throw input_error(place, fmt::format("missing column {}{}", expected[i],
+                                           near ? ", expected it instead of " + in_quotes(*near) : ""));
+    }
     columns.of[i] = static_cast<std::size_t>(found - fields.begin());
   }
   return columns;
@@ -111,7 +119,9 @@ void append_kitti(const std::vector<std::string_view> &fields, const TextPlace &
   append(static_cast<double>(to.times_s.size()), position_m, glm::quat_cast(*rotation), place, to);
 }
 
-void append_pose(std::string_view line, const Columns &columns, const TextPlace &place, Trajectory &to) {
+// `line` is without the blanks around it, and begins at `begin`.
+void append_pose(std::string_view line, const Columns &columns, const TextPlace &begin, Trajectory &to) {
+  const TextPlace place{begin.file, begin.line};
   const std::vector<std::string_view> fields = fields_of(line, columns.commas);
   if (fields.size() != columns.count)
     throw input_error(place, fmt::format("expected {} values, found {}", columns.count, fields.size()));
@@ -121,7 +131,9 @@ void append_pose(std::string_view line, const Columns &columns, const TextPlace 
   for (std::size_t i = 0; i < values.size(); ++i) {
     const bool is_length = i >= 1 && i <= 3;
     const NumberRange range = is_length ? NumberRange{-max_coordinate_m, max_coordinate_m} : NumberRange{};
-    values[i] = number_of(fields[columns.of[i]], names[i], place, range);
+    const std::string_view field = fields[columns.of[i]];
+    const auto before = static_cast<std::size_t>(field.data() - line.data());
+    values[i] = number_of(field, names[i], {begin.file, begin.line, begin.column + before}, range);
   }
   const auto [time, x, y, z, qx, qy, qz, qw] = values;
   const glm::dquat rotation(qw, qx, qy, qz);
@@ -155,6 +167,7 @@ Trajectory read_trajectory(const std::filesystem::path &file, const Place &named
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view line = trimmed(rest.substr(0, end));
+    const auto blanks = static_cast<std::size_t>(line.data() - rest.data());
     rest.remove_prefix(std::min(end + 1, rest.size()));
     ++place.line;
     if (!columns && is_euroc_header(line)) {
@@ -164,12 +177,12 @@ Trajectory read_trajectory(const std::filesystem::path &file, const Place &named
     if (is_comment(line))
       continue;
     if (columns) {
-      append_pose(line, *columns, place, trajectory);
+      append_pose(line, *columns, {file, place.line, blanks + 1}, trajectory);
     } else if (line.find(',') != std::string_view::npos) {
       columns = columns_of(line, place);
     } else {
       columns = Columns{.count = fields_of(line, false).size() == kitti_values ? kitti_values : 8};
-      append_pose(line, *columns, place, trajectory);
+      append_pose(line, *columns, {file, place.line, blanks + 1}, trajectory);
     }
   }
   if (trajectory.times_s.empty())

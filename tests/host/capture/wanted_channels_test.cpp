@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace pmdsim;
@@ -113,14 +114,20 @@ TEST_CASE("channels are wanted by name, of a frequency or of all, and of all tap
   CHECK(all.with(row_of(&Return::amplitude)).are_all());
 }
 
-TEST_CASE("names that are none are refused with those that there are") {
-  for (const std::string name :
-       {"distance", "", "tap0", "f1.z_m", "f.distance_m", "f01.distance_m", "deformation_mm", "f1.f1.tap"}) {
+TEST_CASE("names that are none are refused with the one that is near or those that there are") {
+  for (const std::string name : {"", "f1.z_m", "deformation_mm", "f1.f1.tap"}) {
     INFO(name);
     CHECK_THROWS_WITH(WantedChannels({name}),
                       Catch::Contains("--channels: unknown channel \"" + name + "\"") &&
                           Catch::Contains("amplitude, phase_rad, distance_m"));
   }
+  for (const auto &[name, meant] :
+       std::vector<std::pair<std::string, std::string>>{{"distance", "distance_m"},
+                                                        {"tap0", "tap"},
+                                                        {"f.distance_m", "distance_m"},
+                                                        {"f01.distance_m", "distance_m"}})
+    CHECK_THROWS_WITH(WantedChannels({name}),
+                      "--channels: unknown channel \"" + name + "\", did you mean \"" + meant + "\"?");
   CHECK_THROWS_WITH(WantedChannels({"x"}, {"deformation_mm"}), Catch::Contains("expected of deformation_mm"));
 }
 

@@ -88,7 +88,7 @@ TEST_CASE("values out of range") {
 
 TEST_CASE("shadows are auto or off") {
   check_setup_refused("\"sensors\":", R"("shadows": "on", "sensors":)",
-                      {R"(setup.json: /shadows: expected "auto" or "off", found "on")"});
+                      {"setup.json:4:14: /shadows: ", R"(expected "auto" or "off", found "on")"});
 }
 
 TEST_CASE("cameras that cannot be") {
@@ -107,7 +107,7 @@ TEST_CASE("frames and taps at no time") {
   const auto refuse_frames = [](const std::string &frames, const std::vector<std::string> &fragments) {
     check_setup_refused("\"sensors\":", "\"frames\": " + frames + ", \"sensors\":", fragments);
   };
-  refuse_frames(R"({"count": 2})", {"setup.json: /frames: ", "rate_hz"});
+  refuse_frames(R"({"count": 2})", {"setup.json:4:13: /frames: ", "rate_hz"});
   refuse_frames(R"({"count": 0})", {"/frames/count", "1 to 100000"});
   refuse_frames(R"({"count": 100001, "rate_hz": 1})", {"/frames/count", "1 to 100000"});
   refuse_frames(R"({"count": 2, "rate_hz": 0})", {"/frames/rate_hz", "1e-06 to 1000000000"});

@@ -95,9 +95,8 @@ TEST_CASE("deform writes the deformation alone, or beside channels that are aske
 
 TEST_CASE("channels that there are not are refused, and nothing is written") {
   const WallSetup wall;
-  check_refusal(
-      wall.run("render", "out", {"--channels", "distance"}), 2,
-      {"--channels: unknown channel \"distance\", expected of amplitude, phase_rad, distance_m, tap"});
+  check_refusal(wall.run("render", "out", {"--channels", "distance"}), 2,
+                {"--channels: unknown channel \"distance\", did you mean \"distance_m\"?"});
   check_refusal(wall.run("render", "out", {"--channels", "z_m,deformation_mm"}), 2,
                 {"unknown channel \"deformation_mm\""});
   check_refusal(wall.run("deform", "out", {"--channels", "nothing"}), 2, {"expected of deformation_mm, "});

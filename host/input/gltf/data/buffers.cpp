@@ -98,12 +98,12 @@ fs::path file_beside(const std::string &uri, const Place &place) {
   const fs::path folder = place.file.has_parent_path() ? place.file.parent_path() : ".";
   std::error_code unresolved;
   const fs::path inside = fs::weakly_canonical(folder, unresolved);
-  fs::path file = unresolved ? fs::path{} : fs::weakly_canonical(folder / *name, unresolved);
+  const fs::path file = unresolved ? fs::path{} : fs::weakly_canonical(folder / *name, unresolved);
   if (unresolved)
     throw input_error(place, fmt::format("{}: {}", in_quotes(uri), unresolved.message()));
   if (fs::path(*name).is_absolute() || !lies_inside(inside, file))
     throw input_error(place, fmt::format("{} lies outside the scene's folder", in_quotes(uri)));
-  return file;
+  return place.file.parent_path() / *name; // as messages and manifests name it
 }
 
 std::vector<Bytes> read_gltf_buffers(const GltfDocument &document, const fs::path &file) {

@@ -99,28 +99,28 @@ TEST_CASE("What is wrong in a diagram's table is named with its line") {
   CHECK_THAT(csv_error("angle_deg\n0\n"), EndsWith(header));
   CHECK_THAT(csv_error("phi_deg,relative\n0,1\n"), EndsWith(header));
   CHECK_THAT(csv_error("angle_deg,phi_deg,relative\n0,0,1\n"), EndsWith(header));
-  CHECK_THAT(csv_error("angle_deg,relative,colour\n"), EndsWith("led.csv:1: unknown column \"colour\""));
+  CHECK_THAT(csv_error("angle_deg,relative,colour\n"), Contains("led.csv:1: unknown column \"colour\""));
   CHECK_THAT(csv_error("angle_deg,relative,relative\n"),
              EndsWith("led.csv:1: column relative appears twice"));
   CHECK_THAT(csv_error(one), EndsWith("led.csv:2: expected at least two angles to the axis"));
   CHECK_THAT(csv_error(one + "0,1\n"), EndsWith("led.csv:3: expected at least two angles to the axis"));
   CHECK_THAT(csv_error(two + "0,0,1\n0,90,1\n"),
              EndsWith("led.csv:4: expected at least two angles to the axis"));
-  CHECK_THAT(csv_error(one + "0,1\n10,0.5,3\n"), EndsWith("led.csv:3: expected 2 columns"));
-  CHECK_THAT(csv_error(one + "0,1\n10\n"), EndsWith("led.csv:3: expected 2 columns"));
-  CHECK_THAT(csv_error(one + "0,one\n"), EndsWith("led.csv:2: relative: expected a number, found \"one\""));
-  CHECK_THAT(csv_error(one + "0,nan\n"), EndsWith("led.csv:2: relative: expected a number, found \"nan\""));
+  CHECK_THAT(csv_error(one + "0,1\n10,0.5,3\n"), Contains("led.csv:3: expected 2 columns, found 3"));
+  CHECK_THAT(csv_error(one + "0,1\n10\n"), EndsWith("led.csv:3: expected 2 columns, found 1"));
+  CHECK_THAT(csv_error(one + "0,one\n"), EndsWith("led.csv:2:3: relative: expected a number, found \"one\""));
+  CHECK_THAT(csv_error(one + "0,nan\n"), EndsWith("led.csv:2:3: relative: expected a number, found \"nan\""));
   CHECK_THAT(csv_error(one + "0,1\n10,-0.5\n"),
-             EndsWith("led.csv:3: relative: expected a number from 0 to 1e+30, found \"-0.5\""));
+             EndsWith("led.csv:3:4: relative: expected a number from 0 to 1e+30, found \"-0.5\""));
   CHECK_THAT(csv_error(one + "0,1\n180.1,0\n"),
-             EndsWith("led.csv:3: angle_deg: expected a number from 0 to 180, found \"180.1\""));
+             EndsWith("led.csv:3:1: angle_deg: expected a number from 0 to 180, found \"180.1\""));
   CHECK_THAT(csv_error(one + "0,1\n20,1\n20,0\n"),
              EndsWith("led.csv:4: angle_deg: expected ascending angles, found 20 after 20"));
   CHECK_THAT(csv_error(one + "0,1\n20,1\n10,0\n"),
              EndsWith("led.csv:4: angle_deg: expected ascending angles, found 10 after 20"));
   CHECK_THAT(csv_error(two + "0,0,1\n-1,0,1\n"),
-             Contains("led.csv:3: theta_deg: expected a number from 0 to 180"));
-  CHECK_THAT(csv_error(two + "0,361,1\n"), Contains("led.csv:2: phi_deg: expected a number from 0 to 360"));
+             Contains("led.csv:3:1: theta_deg: expected a number from 0 to 180"));
+  CHECK_THAT(csv_error(two + "0,361,1\n"), Contains("led.csv:2:3: phi_deg: expected a number from 0 to 360"));
   CHECK_THAT(csv_error(two + "0,0,1\n0,90,1\n9,0,1\n9,90,1\n9,0,1\n"),
              EndsWith("led.csv:6: theta 9 with phi 0 appears twice"));
   CHECK_THAT(csv_error(two + "0,0,1\n0,90,1\n9,90,1\n"),

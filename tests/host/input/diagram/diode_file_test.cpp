@@ -58,22 +58,23 @@ TEST_CASE("Columns come in any order, lines end in any way") {
 TEST_CASE("What is wrong in a diode file is named with its line") {
   CHECK_THAT(diodes_error("x_m,y_m,axis_x,axis_y,axis_z,intensity_w_sr,pattern\n"),
              EndsWith("diodes.csv:1: missing column z_m"));
-  CHECK_THAT(diodes_error("colour," + header), EndsWith("diodes.csv:1: unknown column \"colour\""));
+  CHECK_THAT(diodes_error("colour," + header), Contains("diodes.csv:1: unknown column \"colour\""));
   CHECK_THAT(diodes_error("x_m," + header), EndsWith("diodes.csv:1: column x_m appears twice"));
   CHECK_THAT(diodes_error(""), EndsWith("diodes.csv:1: expected a header line"));
   CHECK_THAT(diodes_error(header), EndsWith("diodes.csv:2: expected at least one diode"));
   const std::string good = "0,0,0,0,0,1,1,isotropic\n";
   CHECK_THAT(diodes_error(header + good + "0,zero,0,0,0,1,1,2\n"),
-             EndsWith("diodes.csv:3: y_m: expected a number, found \"zero\""));
+             EndsWith("diodes.csv:3:3: y_m: expected a number, found \"zero\""));
   CHECK_THAT(diodes_error(header + "1.5x,0,0,0,0,1,1,2\n"),
-             EndsWith(":2: x_m: expected a number, found \"1.5x\""));
-  CHECK_THAT(diodes_error(header + "0,0,,0,0,1,1,2\n"), EndsWith(":2: z_m: expected a number, found \"\""));
+             EndsWith(":2:1: x_m: expected a number, found \"1.5x\""));
+  CHECK_THAT(diodes_error(header + "0,0,,0,0,1,1,2\n"), EndsWith(":2:5: z_m: expected a number, found \"\""));
   CHECK_THAT(diodes_error(header + "0,0,nan,0,0,1,1,2\n"),
-             EndsWith(":2: z_m: expected a number, found \"nan\""));
+             EndsWith(":2:5: z_m: expected a number, found \"nan\""));
   CHECK_THAT(diodes_error(header + "0,0,1e999,0,0,1,1,2\n"), Contains("z_m: expected a number"));
-  CHECK_THAT(diodes_error(header + "0,0,0,0,0,0,1,2\n"), EndsWith(":2: expected an axis, found zero"));
+  CHECK_THAT(diodes_error(header + "0,0,0,0,0,0,1,2\n"),
+             EndsWith(":2:7: expected an axis, as 0, 0, 1 is, found zero"));
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,-1,2\n"),
-             EndsWith(":2: intensity_w_sr: expected a number from 0 to 1e+30, found \"-1\""));
+             EndsWith(":2:13: intensity_w_sr: expected a number from 0 to 1e+30, found \"-1\""));
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,-2\n"),
              EndsWith(":2: pattern: expected a number from 0 to 1000000, found \"-2\""));
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,1e\n"),
@@ -81,8 +82,8 @@ TEST_CASE("What is wrong in a diode file is named with its line") {
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,\n"),
              EndsWith(":2: pattern: expected an order, isotropic or a diagram's file name"));
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,inf\n"), EndsWith("inf\": no such file"));
-  CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1\n"), EndsWith(":2: expected 8 columns"));
-  CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,1,1\n"), EndsWith(":2: expected 8 columns"));
+  CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1\n"), EndsWith(":2: expected 8 columns, found 7"));
+  CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,1,1\n"), Contains(":2: expected 8 columns, found 9"));
   CHECK_THAT(diodes_error(header + "\n"), EndsWith(":3: expected at least one diode"));
 }
 
@@ -91,7 +92,7 @@ TEST_CASE("Blank lines are skipped and counted") {
   CHECK(read_diodes("\n" + header + "\n" + good + " \t\n\r\n" + good + "\n\n").size() == 2);
   CHECK(read_diodes(header + good + "  ").size() == 1);
   CHECK_THAT(diodes_error(header + "\n\r\n" + good + "\nzero,0,0,0,0,1,1,2\n"),
-             EndsWith("diodes.csv:6: x_m: expected a number, found \"zero\""));
+             EndsWith("diodes.csv:6:1: x_m: expected a number, found \"zero\""));
   CHECK_THAT(diodes_error("\n\nx_m\n"), EndsWith("diodes.csv:3: missing column y_m"));
 }
 

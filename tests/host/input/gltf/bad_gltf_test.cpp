@@ -41,7 +41,7 @@ json indexed() { return document(triangle_positions(), {0, 1, 2}, 4); }
 } // namespace
 
 TEST_CASE("Indices to nowhere") {
-  CHECK_THAT(error_with("/scene", 5), EndsWith("scene.gltf: /scene: index 5 into /scenes, which has 1"));
+  CHECK_THAT(error_with("/scene", 5), EndsWith(" /scene: index 5 into /scenes, which has 1"));
   CHECK_THAT(error_with("/scenes/0/nodes/0", 1),
              EndsWith("/scenes/0/nodes/0: index 1 into /nodes, which has 1"));
   CHECK_THAT(error_with("/nodes/0/mesh", 3), EndsWith("/nodes/0/mesh: index 3 into /meshes, which has 1"));
@@ -122,8 +122,8 @@ TEST_CASE("Values of a wrong type are not dropped") {
   CHECK_THAT(error_with("/meshes/0/primitives/0/attributes", json::object()),
              Contains("missing key \"POSITION\""));
   CHECK_THAT(SceneFile().error_of_bytes("[]"),
-             EndsWith("scene.gltf: expected an object, found an array of 0"));
-  CHECK_THAT(SceneFile().error_of_bytes("{}"), EndsWith("scene.gltf: missing key \"asset\""));
+             EndsWith("scene.gltf:1:1: expected an object, found an array of 0"));
+  CHECK_THAT(SceneFile().error_of_bytes("{}"), EndsWith("scene.gltf:1:1: missing key \"asset\""));
   CHECK_THAT(error_with("/asset/version", "1.0"),
              EndsWith("/asset/version: expected \"2.0\", found \"1.0\""));
 }

@@ -410,7 +410,7 @@ TEST_CASE("Textures, images and samplers of a wrong type or to nowhere") {
   CHECK_THAT(error_with("/images/0/bufferView", 2),
              EndsWith("/images/0/bufferView: index 2 into /bufferViews, which has 1"));
   CHECK_THAT(error_with("/textures/0/source", "0"),
-             EndsWith("/textures/0/source: expected an index, found \"0\""));
+             EndsWith("/textures/0/source: expected an index, found \"0\"; write 0"));
   CHECK_THAT(error_with("/textures", 3), EndsWith("/textures: expected an array, each an object, found 3"));
   CHECK_THAT(error_with("/images/0/uri", 3), EndsWith("/images/0/uri: expected a string, found 3"));
   CHECK_THAT(error_with("/samplers/0/wrapS", 1),

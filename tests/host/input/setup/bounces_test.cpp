@@ -75,8 +75,7 @@ TEST_CASE("Bounces are a number or all, their error a length") {
 }
 
 TEST_CASE("Wrong bounces and errors of them say what was expected") {
-  CHECK_THAT(error_of_bounces(-1),
-             EndsWith("setup.json: /bounces: expected an integer from 0 to 1000, found -1"));
+  CHECK_THAT(error_of_bounces(-1), EndsWith(" /bounces: expected an integer from 0 to 1000, found -1"));
   CHECK_THAT(error_of_bounces(1001), EndsWith("/bounces: expected an integer from 0 to 1000, found 1001"));
   CHECK_THAT(error_of_bounces(1.5), EndsWith("/bounces: expected an integer from 0 to 1000, found 1.5"));
   CHECK_THAT(error_of_bounces("some"),
@@ -84,7 +83,7 @@ TEST_CASE("Wrong bounces and errors of them say what was expected") {
   CHECK_THAT(error_of_bounces(nullptr), Contains("/bounces: expected an integer from 0 to 1000 or \"all\""));
   for (const char *text : {"0mm", "-1mm", "0.9um", "1.1m", "1", "mm", "1 mm", "1cm", ""})
     CHECK_THAT(error_of_bounce_error(text),
-               EndsWith("setup.json: /bounce_error: expected a length from 1um to 1m with its unit, m, mm or "
+               EndsWith(" /bounce_error: expected a length from 1um to 1m with its unit, m, mm or "
                         "um, e.g. 1mm, found \"" +
                         std::string(text) + "\""));
   CHECK_THAT(error_of_bounce_error(1e-3),
@@ -97,9 +96,8 @@ TEST_CASE("Only surfaces that scatter evenly let light bounce") {
   fixture.setup["backscatter"] = "constant";
   CHECK(fixture.load().backscatter == Backscatter::constant);
   fixture.setup["bounces"] = "all";
-  CHECK_THAT(
-      fixture.error(),
-      Contains("setup.json: /backscatter: expected \"lambert\" where light bounces: of \"constant\" "));
+  CHECK_THAT(fixture.error(),
+             Contains(": /backscatter: expected \"lambert\" where light bounces: of \"constant\" "));
 }
 
 TEST_CASE("Materials that are no Lambert surfaces are named once where light bounces") {

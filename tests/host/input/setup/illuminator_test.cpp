@@ -80,7 +80,7 @@ TEST_CASE("An illuminator's diagrams roll about the axes of its diodes") {
   for (const Diode &diode : diodes_of(fixture.load()))
     CHECK(distance(diode.across, {std::sqrt(0.75), 0.5, 0}) < 1e-15);
   fixture.illuminator()["pattern"] = {{"order", 3}, {"roll_deg", 30}};
-  CHECK_THAT(fixture.error(), EndsWith("/illuminators/0/pattern: unknown key \"roll_deg\""));
+  CHECK_THAT(fixture.error(), Contains("/illuminators/0/pattern: unknown key \"roll_deg\""));
 }
 
 TEST_CASE("A diode file names diagrams in its own folder, with a roll each") {
@@ -109,8 +109,8 @@ TEST_CASE("A diode file names diagrams in its own folder, with a roll each") {
 TEST_CASE("Diagram files that cannot be read are named where they are asked for") {
   SetupFixture fixture;
   fixture.illuminator()["pattern"] = {{"file", "absent.ies"}};
-  CHECK_THAT(fixture.error(), Contains("setup.json: /illuminators/0/pattern/file: ") &&
-                                  EndsWith("absent.ies\": no such file"));
+  CHECK_THAT(fixture.error(),
+             Contains(": /illuminators/0/pattern/file: ") && EndsWith("absent.ies\": no such file"));
   fixture.folder.write("absent.ies", "IESNA91\n");
   CHECK_THAT(fixture.error(), Contains("absent.ies:1: expected a line TILT="));
   fixture.illuminator().erase("pattern");
@@ -122,9 +122,9 @@ TEST_CASE("Diagram files that cannot be read are named where they are asked for"
   CHECK_THAT(error_with("0,0,0,0,0,1,1,none.csv,0"),
              Contains("diodes.csv:2: ") && EndsWith("none.csv\": no such file"));
   CHECK_THAT(error_with("0,0,0,0,0,1,1,1,3601"),
-             EndsWith("diodes.csv:2: roll_deg: expected a number from -3600 to 3600, found \"3601\""));
+             EndsWith("diodes.csv:2:17: roll_deg: expected a number from -3600 to 3600, found \"3601\""));
   CHECK_THAT(error_with("0,0,0,0,0,1,1,1,"),
-             EndsWith("diodes.csv:2: roll_deg: expected a number, found \"\""));
+             EndsWith("diodes.csv:2:17: roll_deg: expected a number, found \"\""));
 }
 
 TEST_CASE("A diagram that is dark on its axis is a warning, once for all who name it") {

@@ -116,7 +116,7 @@ TEST_CASE("The ranges of a diode file's numbers") {
   CHECK(diode_error("1e9,-1e9,1e9,0,0,1,1e30,1e6") == "");
   CHECK(diode_error("0,0,0,0,0,1,0,0") == "");
   const std::string position = "expected a number from -1000000000 to 1000000000, found ";
-  CHECK_THAT(diode_error("1.1e9,0,0,0,0,1,1,1"), EndsWith("diodes.csv:2: x_m: " + position + "\"1.1e9\""));
+  CHECK_THAT(diode_error("1.1e9,0,0,0,0,1,1,1"), EndsWith("diodes.csv:2:1: x_m: " + position + "\"1.1e9\""));
   CHECK_THAT(diode_error("0,-1.1e9,0,0,0,1,1,1"), EndsWith("y_m: " + position + "\"-1.1e9\""));
   CHECK_THAT(diode_error("0,0,1e300,0,0,1,1,1"), EndsWith("z_m: " + position + "\"1e300\""));
   CHECK_THAT(diode_error("0,0,0,0,0,1,1.1e30,1"),

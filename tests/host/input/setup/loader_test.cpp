@@ -258,8 +258,7 @@ TEST_CASE("A single frame needs no rate, several do") {
   CHECK(fixture.load().frames.time_s(0) == 3.0);
   fixture.setup["frames"]["count"] = 2;
   CHECK_THAT(fixture.error(),
-             Catch::EndsWith(
-                 "setup.json: /frames: missing key \"rate_hz\", expected beside a count of more than 1"));
+             Catch::EndsWith(" /frames: missing key \"rate_hz\", expected beside a count of more than 1"));
   fixture.setup["frames"]["rate_hz"] = 0;
   CHECK_THAT(fixture.error(), Catch::Contains("/frames/rate_hz: expected a number from 1e-06 to 1000000000"));
 }

@@ -71,6 +71,6 @@ TEST_CASE("A camera that is mirrored on its way is refused when it is") {
   const Setup setup = fixture.load();
   CHECK_NOTHROW(setup.at(0.5));
   CHECK_THAT(input_error_of([&] { setup.at(1.5); }),
-             EndsWith("setup.json: /sensors/0/pose/node: the transform of node \"camera\" is mirrored or "
+             EndsWith(" /sensors/0/pose/node: the transform of node \"camera\" is mirrored or "
                       "singular, at 1.5 s"));
 }

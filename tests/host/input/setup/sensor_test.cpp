@@ -80,13 +80,13 @@ TEST_CASE("The fisheye's coefficients are used by name, and its defaults are sta
 
 TEST_CASE("A key of the other distortion model is named") {
   CHECK_THAT(error_with({{"distortion", {{"model", "fisheye"}, {"p1", 0}}}}),
-             EndsWith("/sensors/0/distortion: unknown key \"p1\""));
+             Contains("/sensors/0/distortion: unknown key \"p1\""));
   CHECK_THAT(error_with({{"distortion", {{"model", "fisheye"}, {"p1", "x"}}}}),
-             EndsWith("/sensors/0/distortion: unknown key \"p1\""));
+             Contains("/sensors/0/distortion: unknown key \"p1\""));
   CHECK_THAT(error_with({{"distortion", {{"k1", 0}, {"k4", 0}}}}),
-             EndsWith("/sensors/0/distortion: unknown key \"k4\""));
+             Contains("/sensors/0/distortion: unknown key \"k4\""));
   CHECK_THAT(error_with({{"distortion", {{"model", "brown"}, {"k5", 0}}}}),
-             EndsWith("/sensors/0/distortion: unknown key \"k5\""));
+             Contains("/sensors/0/distortion: unknown key \"k5\""));
 }
 
 TEST_CASE("What a distortion is expected to be") {

@@ -76,8 +76,8 @@ TEST_CASE("Files that are no trajectories") {
   CHECK(why_not("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n") == ":2: expected a time after 1 s, found 1 s");
   CHECK(why_not("1 0 0 0 0 0 0 2\n") == ":1: expected a quaternion of length 1, found 2");
   CHECK(why_not("1 0 0 0 0 0 0\n") == ":1: expected 8 values, found 7");
-  CHECK(why_not("1 0 0 x 0 0 0 1\n").find(":1: z_m: expected a number") == 0);
-  CHECK(why_not("1 2e9 0 0 0 0 0 1\n").find(":1: x_m: expected a number from") == 0);
+  CHECK(why_not("1 0 0 x 0 0 0 1\n").find(":1:7: z_m: expected a number") == 0);
+  CHECK(why_not("1 2e9 0 0 0 0 0 1\n").find(":1:3: x_m: expected a number from") == 0);
   CHECK(why_not("time_s,x_m\n1,2\n") == ":1: missing column y_m");
   CHECK(why_not("time_s,x_m,y_m,z_m,qx,qy,qz,qw\n1,2\n") == ":2: expected 8 values, found 2");
 }
