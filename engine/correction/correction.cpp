@@ -1,0 +1,243 @@
+#include "engine/correction/correction.h"
+
+#include "engine/correction/range_search.h"
+#include "engine/correction/surface_fit.h"
+#include "engine/lens/lens.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <tbb/parallel_for.h>
+
+namespace pmdsim {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint32_t most_passes = 6;
+// A pass that moves no pixel that is sure by more is the last.
+constexpr double settled_m = 2e-8;
+constexpr double least_edge_limit_m = 2e-6;
+constexpr std::uint32_t rows_between_progress = 32;
+
+std::size_t pixels_of(const Sensor &sensor) { return sensor.pixel_count(); }
+
+// What a pixel averages over: the points of a rule for its active area, in pixels from its centre, by which
+// quadratics have the mean that they have over its samples. None for a single sample.
+std::vector<glm::dvec2> area_points(const Sensor &sensor) {
+  if (sensor.samples < 2)
+    return {};
+  const double squared = 1.0 - 1.0 / (static_cast<double>(sensor.samples) * sensor.samples);
+  const glm::dvec2 off = sensor.fill_factor * std::sqrt(squared / 12.0);
+  return {{-off.x, -off.y}, {off.x, -off.y}, {-off.x, off.y}, {off.x, off.y}};
+}
+
+class Correction {
+public:
+  Correction(const Sensor &sensor, const std::vector<Illuminator> &illuminators, const MeasuredImage &image,
+             const CorrectionOptions &options, const std::function<void(double)> &progress)
+      : sensor_(sensor), lens_(sensor), search_(sensor, illuminators, options), image_(image),
+        options_(options), progress_(progress), area_points_(area_points(sensor)) {
+    if (image.phase_rad.size() != pixels_of(sensor) ||
+        (!image.guess_m.empty() && image.guess_m.size() != pixels_of(sensor)))
+      throw std::logic_error("an image that is not of the sensor's size");
+  }
+
+  CorrectedImage run() {
+    find_rays();
+    first_pass();
+    if (options_.normals == NormalsFrom::neighbours)
+      refine();
+    finish();
+    return std::move(result_);
+  }
+
+private:
+  template <class Work>
+  void for_rows(const Work &work) {
+    for (std::uint32_t first = 0; first < sensor_.resolution.y; first += rows_between_progress) {
+      const std::uint32_t end = std::min(first + rows_between_progress, sensor_.resolution.y);
+      tbb::parallel_for(first, end, work);
+      if (progress_) // the passes that follow are not known before; each is taken for half of what is left
+        progress_(1.0 -
+                  std::exp2(-static_cast<double>(result_.passes)) * (1.0 - 0.5 * end / sensor_.resolution.y));
+    }
+    ++result_.passes;
+  }
+  std::size_t pixel(std::uint32_t row, std::uint32_t column) const {
+    return std::size_t{row} * sensor_.resolution.x + column;
+  }
+  PixelStatus status(std::size_t pixel) const { return static_cast<PixelStatus>(result_.status[pixel]); }
+  void set(std::size_t pixel, const FoundRange &found) {
+    result_.status[pixel] = static_cast<std::uint32_t>(found.status);
+    result_.range_m[pixel] = found.status == PixelStatus::corrected ? found.range_m : not_a_number;
+  }
+  PointOnRay point(std::size_t pixel) const {
+    return {result_.ray[pixel], result_.range_m[pixel], result_.normal[pixel]};
+  }
+  RangeImage ranges() const { return {sensor_.resolution, result_.ray, result_.range_m}; }
+
+  void find_rays();
+  void first_pass();
+  FoundRange first_range(std::size_t pixel, double &offset_m) const;
+  void refine();
+  double excess_rad(std::uint32_t row, std::uint32_t column, const SurfaceFit &fit) const;
+  double refine_pixel(std::uint32_t row, std::uint32_t column);
+  void finish();
+  void finish_pixel(std::size_t pixel);
+
+  const Sensor &sensor_;
+  Lens lens_;
+  RangeSearch search_;
+  const MeasuredImage &image_;
+  const CorrectionOptions &options_;
+  const std::function<void(double)> &progress_;
+  std::vector<glm::dvec2> area_points_;
+  std::vector<SurfaceFit> fits_;
+  CorrectedImage result_;
+};
+
+void Correction::find_rays() {
+  const std::size_t pixels = pixels_of(sensor_);
+  result_.range_m.assign(pixels, not_a_number);
+  result_.correction_m = result_.normal_error_m = result_.range_m;
+  result_.ray.assign(pixels, glm::dvec3(0.0));
+  result_.status.assign(pixels, static_cast<std::uint32_t>(PixelStatus::not_measured));
+  tbb::parallel_for(0u, sensor_.resolution.y, [&](std::uint32_t row) {
+    for (std::uint32_t column = 0; column < sensor_.resolution.x; ++column) {
+      const auto ray = lens_.ray(lens_.on_chip_m({column + 0.5, row + 0.5}));
+      result_.ray[pixel(row, column)] = ray.value_or(glm::dvec3(0.0));
+    }
+  });
+  result_.normal = result_.ray;
+  for (glm::dvec3 &normal : result_.normal)
+    normal = -normal;
+}
+
+// `offset_m`: of the measured distance and the range of the pixel before, about the same for this one.
+FoundRange Correction::first_range(std::size_t pixel, double &offset_m) const {
+  const double phase_rad = image_.phase_rad[pixel], ambiguity_m = search_.ambiguity_m();
+  const double measured_m = ambiguity_m * phase_rad / (2.0 * std::numbers::pi);
+  const bool guessed = !image_.guess_m.empty() && std::isfinite(image_.guess_m[pixel]);
+  const double least_m = guessed ? image_.guess_m[pixel] - 0.5 * ambiguity_m : options_.least_range_m;
+  const auto folded = [&](double range_m) {
+    return range_m - ambiguity_m * std::floor((range_m - least_m) / ambiguity_m);
+  };
+  const FoundRange found = search_.within(
+      {result_.ray[pixel], folded(measured_m - offset_m), result_.normal[pixel]}, phase_rad, least_m);
+  if (found.status == PixelStatus::corrected)
+    offset_m = std::remainder(measured_m - found.range_m, ambiguity_m);
+  return found;
+}
+
+void Correction::first_pass() {
+  for_rows([&](std::uint32_t row) {
+    double offset_m = 0.0;
+    for (std::uint32_t column = 0; column < sensor_.resolution.x; ++column) {
+      const std::size_t at = pixel(row, column);
+      if (std::isfinite(image_.phase_rad[at]) && result_.ray[at] != glm::dvec3(0.0))
+        set(at, first_range(at, offset_m));
+    }
+  });
+  const double noise_m = noise_of(ranges());
+  result_.noise_m = noise_m;
+  result_.edge_limit_m = std::max(least_edge_limit_m, std::isfinite(noise_m) ? 0.1 * noise_m : 0.0);
+  const double spacing_m = spacing_of(ranges());
+  result_.fit_pixels = options_.fit_pixels > 0  ? options_.fit_pixels
+                       : std::isfinite(noise_m) ? fit_pixels_for(noise_m, spacing_m)
+                                                : 1;
+}
+
+void Correction::refine() {
+  std::vector<double> moved_m(sensor_.resolution.y);
+  do {
+    fits_ = fit_surfaces(ranges(), result_.fit_pixels);
+    for_rows([&](std::uint32_t row) {
+      moved_m[row] = 0.0;
+      for (std::uint32_t column = 0; column < sensor_.resolution.x; ++column)
+        moved_m[row] = std::max(moved_m[row], refine_pixel(row, column));
+    });
+    result_.last_change_m = std::ranges::max(moved_m);
+  } while (result_.last_change_m > settled_m && result_.passes < most_passes);
+}
+
+// By how much the phase of the pixel's mean exceeds that of its centre.
+double Correction::excess_rad(std::uint32_t row, std::uint32_t column, const SurfaceFit &fit) const {
+  std::array<glm::dvec3, 4> rays;
+  double excess_rad = 0.0;
+  for (std::size_t i = 0; i < area_points_.size(); ++i) {
+    const auto ray = lens_.ray(lens_.on_chip_m(glm::dvec2(column, row) + 0.5 + area_points_[i]));
+    if (!ray)
+      return 0.0;
+    rays[i] = *ray;
+  }
+  const PointOnRay at = point(pixel(row, column));
+  excess_rad = search_.phase_excess_rad(at, rays);
+  const glm::dvec2 bent_m = 0.5 * area_points_[3] * area_points_[3] * fit.bend_m;
+  return excess_rad + phase_of_distance_rad(bent_m.x + bent_m.y, sensor_.modulation_hz[options_.frequency]);
+}
+
+// Returns how far the range moved, where the pixel is sure.
+double Correction::refine_pixel(std::uint32_t row, std::uint32_t column) {
+  const std::size_t at = pixel(row, column);
+  if (!std::isfinite(result_.range_m[at]))
+    return 0.0;
+  const SurfaceFit &fit = fits_[at];
+  result_.normal[at] = fit.normal;
+  const double before_m = result_.range_m[at];
+  double phase_rad = image_.phase_rad[at];
+  if (!area_points_.empty())
+    phase_rad -= excess_rad(row, column, fit);
+  const FoundRange found = search_.nearest(point(at), phase_rad);
+  if (found.status == PixelStatus::no_light && fit.uncertainty_rad > 0.05) { // an unlikely normal
+    result_.normal[at] = -result_.ray[at];
+    fits_[at].uncertainty_rad = 1.0;
+    return 0.0;
+  }
+  set(at, found);
+  return found.status == PixelStatus::corrected && fit.uncertainty_rad < 1e-2
+             ? std::abs(found.range_m - before_m)
+             : 0.0;
+}
+
+void Correction::finish_pixel(std::size_t at) {
+  if (status(at) != PixelStatus::corrected)
+    return;
+  const double ambiguity_m = search_.ambiguity_m();
+  const double measured_m = ambiguity_m * image_.phase_rad[at] / (2.0 * std::numbers::pi);
+  result_.correction_m[at] = std::remainder(measured_m - result_.range_m[at], ambiguity_m);
+  if (fits_.empty())
+    return;
+  result_.normal_error_m[at] = search_.range_per_normal_m(point(at)) * fits_[at].uncertainty_rad;
+  if (!(result_.normal_error_m[at] <= result_.edge_limit_m))
+    result_.status[at] = static_cast<std::uint32_t>(PixelStatus::edge);
+}
+
+void Correction::finish() {
+  tbb::parallel_for(0u, sensor_.resolution.y, [&](std::uint32_t row) {
+    for (std::uint32_t column = 0; column < sensor_.resolution.x; ++column)
+      finish_pixel(pixel(row, column));
+  });
+  for (const std::uint32_t status : result_.status)
+    ++result_.counts[status];
+}
+
+} // namespace
+
+CorrectedImage correct(const Sensor &sensor, const std::vector<Illuminator> &illuminators,
+                       const MeasuredImage &image, const CorrectionOptions &options,
+                       const std::function<void(double)> &progress) {
+  return Correction(sensor, illuminators, image, options, progress).run();
+}
+
+double distance_of_phase_m(double phase_rad, double modulation_hz) {
+  return speed_of_light_m_s * phase_rad / (4.0 * std::numbers::pi * modulation_hz);
+}
+
+double phase_of_distance_rad(double distance_m, double modulation_hz) {
+  return 4.0 * std::numbers::pi * modulation_hz * distance_m / speed_of_light_m_s;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,44 @@
+#pragma once
+// The surface around each pixel, from the ranges of its neighbours: planes that are fitted to windows of
+// pixels, of which none is to reach across a step or an edge.
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace pmdsim {
+
+// Row-major, rows * columns values, which outlive it.
+struct RangeImage {
+  glm::uvec2 resolution;           // columns, rows
+  std::span<const glm::dvec3> ray; // unit length, camera frame
+  std::span<const double> range_m; // not finite where there is none
+};
+
+struct SurfaceFit {
+  glm::dvec3 normal{0.0};       // unit length, towards the lens; towards it at all where no plane fits
+  double uncertainty_rad = 1.0; // of the normal: how far it may be off, estimated
+  // How far the surface bends away from its plane, along the columns and along the rows: second differences
+  // of range; 0 where the window reaches to one side only.
+  glm::dvec2 bend_m{0.0};
+};
+
+// On surfaces as smooth as pixels can tell, an inverse range is linear in the ray: 1 / r = g . u, of a plane
+// with the normal along g. For each pixel the plane is fitted to a window of (2 n + 1) x (2 n + 1) pixels
+// about it, or, where that fits clearly better, to one beside which it lies, on any of eight sides; with
+// n = 1 also to 2 x 2 pixels at a corner.
+std::vector<SurfaceFit> fit_surfaces(const RangeImage &image, std::uint32_t n);
+
+// The standard deviation of single ranges, by what is left of the neighbours of a pixel when the part that is
+// even about it is taken off, which a curved surface leaves, too: the median over the image. NaN where no
+// pixel has all eight neighbours.
+double noise_of(const RangeImage &image);
+
+// The distance of points of neighbouring pixels, if surfaces faced the lens: the median. NaN likewise.
+double spacing_of(const RangeImage &image);
+
+// The least n with which a normal is uncertain by 5 mrad or less, by noise; at most 16.
+std::uint32_t fit_pixels_for(double noise_m, double spacing_m);
+
+} // namespace pmdsim
