@@ -82,6 +82,7 @@ private:
   void find_rays();
   void first_pass();
   FoundRange first_range(std::size_t pixel, double &offset_m) const;
+  void fit();
   void refine();
   double excess_rad(std::uint32_t row, std::uint32_t column, const SurfaceFit &fit) const;
   double refine_pixel(std::uint32_t row, std::uint32_t column);
@@ -150,10 +151,21 @@ void Correction::first_pass() {
                                                 : 1;
 }
 
+// A normal stays as uncertain as it was at first: where no plane fits, a pixel's range and its normal settle
+// on one that does, by and by, as each follows from the other.
+void Correction::fit() {
+  std::vector<SurfaceFit> fits = fit_surfaces(ranges(), result_.fit_pixels);
+  for (std::size_t at = 0; at < fits_.size(); ++at) {
+    fits[at].uncertainty_rad = std::max(fits[at].uncertainty_rad, fits_[at].uncertainty_rad);
+    fits[at].one_sided = fits[at].one_sided || fits_[at].one_sided;
+  }
+  fits_ = std::move(fits);
+}
+
 void Correction::refine() {
   std::vector<double> moved_m(sensor_.resolution.y);
   do {
-    fits_ = fit_surfaces(ranges(), result_.fit_pixels);
+    fit();
     for_rows([&](std::uint32_t row) {
       moved_m[row] = 0.0;
       for (std::uint32_t column = 0; column < sensor_.resolution.x; ++column)
@@ -211,7 +223,8 @@ void Correction::finish_pixel(std::size_t at) {
   if (fits_.empty())
     return;
   result_.normal_error_m[at] = search_.range_per_normal_m(point(at)) * fits_[at].uncertainty_rad;
-  if (!(result_.normal_error_m[at] <= result_.edge_limit_m))
+  const bool by_normal = options_.backscatter == Backscatter::lambert;
+  if (by_normal && (fits_[at].one_sided || !(result_.normal_error_m[at] <= result_.edge_limit_m)))
     result_.status[at] = static_cast<std::uint32_t>(PixelStatus::edge);
 }
 

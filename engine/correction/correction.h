@@ -38,8 +38,9 @@ struct CorrectionOptions {
 // What became of a pixel.
 enum class PixelStatus : std::uint32_t {
   corrected = 0,
-  // Corrected, but its normal is uncertain, and by that its range, by more than CorrectedImage::edge_limit_m:
-  // at steps, in pixels that mix two surfaces, on thin things.
+  // Corrected, but its normal, of which its range depends, is uncertain: it moves the range by more than
+  // CorrectedImage::edge_limit_m, or is of a plane beside the pixel. At steps and edges, in pixels that mix
+  // two surfaces, on thin things. Not with Backscatter::constant, of which normals are no part.
   edge = 1,
   not_measured = 2, // the image has no number there, or the lens no ray
   no_light = 3,     // no diode lights any point of the ray

@@ -15,14 +15,22 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 // A window that fits so well is not doubted.
 constexpr double sure_rad = 5e-5;
 // How much better than the window about a pixel another one must fit: on a smooth, curved surface all fit
-// alike, but only that one's normal is the pixel's own. A window of four pixels has one to spare, which may
-// fit by chance.
-constexpr double better_beside = 4.0, better_of_four = 20.0;
+// alike, but only that one's normal is the pixel's own.
+constexpr double better_beside = 4.0;
 // Beyond, the normal is worth nothing.
 constexpr double no_plane_rad = 0.5;
 
 struct Window {
   int first_column, last_column, first_row, last_row; // from the pixel
+  // A triangle, half of the square: only pixels so many steps from the pixel, columns and rows together.
+  int most_steps = std::numeric_limits<int>::max();
+
+  bool has(int column, int row) const { return std::abs(column) + std::abs(row) <= most_steps; }
+  // That it takes: a plane through two rows or two columns alone fits whatever lies there.
+  int least_count() const {
+    const int pixels = (last_column - first_column + 1) * (last_row - first_row + 1);
+    return most_steps == std::numeric_limits<int>::max() ? pixels * 3 / 4 + 1 : pixels * 2 / 3;
+  }
 };
 
 // A plane's g in the frame of the pixel's ray, and how far it may be off.
@@ -57,6 +65,11 @@ public:
     return p.x >= 0 && p.y >= 0 && p.x < static_cast<int>(image_.resolution.x) &&
            p.y < static_cast<int>(image_.resolution.y) && std::isfinite(image_.range_m[index(column, row)]);
   }
+  bool is_at_border(int n) const {
+    const glm::ivec2 end = at_ + n;
+    return at_.x < n || at_.y < n || end.x >= static_cast<int>(image_.resolution.x) ||
+           end.y >= static_cast<int>(image_.resolution.y);
+  }
   double range_m(int column, int row) const { return image_.range_m[index(column, row)]; }
   glm::dvec3 direction(int column, int row) const { return within(frame_, image_.ray[index(column, row)]); }
 
@@ -64,7 +77,7 @@ public:
   void visit(const Window &window, Visit visit) const {
     for (int row = window.first_row; row <= window.last_row; ++row)
       for (int column = window.first_column; column <= window.last_column; ++column)
-        if (has(column, row))
+        if (window.has(column, row) && has(column, row))
           visit(column, row);
   }
 
@@ -96,7 +109,7 @@ std::optional<Plane> fitted_plane(const Neighbourhood &around, const Window &win
     right += a / around.range_m(column, row);
     ++count;
   });
-  if (count < 4)
+  if (count < window.least_count())
     return std::nullopt;
   // Scaled, as a ray's parts across are small.
   const glm::dvec3 scale(1.0 / std::sqrt(matrix[0][0]), 1.0 / std::sqrt(matrix[1][1]),
@@ -155,44 +168,69 @@ glm::dvec2 bend_m(const Neighbourhood &around, const Plane &plane) {
   return {second(1, 0), second(0, 1)};
 }
 
-SurfaceFit surface_of(const Neighbourhood &around, const Plane &plane, double uncertainty_rad,
-                      const glm::dvec2 &bend) {
+SurfaceFit surface_of(const Neighbourhood &around, const Plane &plane, double uncertainty_rad) {
   const Frame &frame = around.frame();
   if (uncertainty_rad > no_plane_rad || !(plane.g.x > 0.0))
-    return {-frame.along, 1.0, {}};
+    return {-frame.along};
   const glm::dvec3 g = plane.g.x * frame.along + plane.g.y * frame.across + plane.g.z * frame.down;
-  return {-glm::normalize(g), uncertainty_rad, bend};
+  return {-glm::normalize(g), uncertainty_rad};
+}
+
+SurfaceFit surface_about(const Neighbourhood &around, const Plane &plane, double uncertainty_rad) {
+  SurfaceFit surface = surface_of(around, plane, uncertainty_rad);
+  surface.one_sided = false;
+  surface.bend_m = bend_m(around, plane);
+  return surface;
 }
 
 SurfaceFit fit_surface(const Neighbourhood &around, int n) {
   const std::optional<Plane> about = fitted_plane(around, {-n, n, -n, n});
   if (about && about->uncertainty_rad < sure_rad)
-    return surface_of(around, *about, about->uncertainty_rad, bend_m(around, *about));
+    return surface_about(around, *about, about->uncertainty_rad);
   const std::array<std::optional<Plane>, 4> beside{
       fitted_plane(around, {-2 * n, 0, -n, n}), fitted_plane(around, {0, 2 * n, -n, n}),
       fitted_plane(around, {-n, n, -2 * n, 0}), fitted_plane(around, {-n, n, 0, 2 * n})};
-  std::optional<Plane> best = about;
+  std::optional<Plane> best;
   double best_rad = about ? about->uncertainty_rad / better_beside : 1.0;
-  const auto offer = [&](const std::optional<Plane> &plane, double handicap) {
-    if (plane && handicap * plane->uncertainty_rad < best_rad) {
+  const auto offer = [&](const std::optional<Plane> &plane) {
+    if (plane && plane->uncertainty_rad < best_rad) {
       best = plane;
-      best_rad = handicap * plane->uncertainty_rad;
+      best_rad = plane->uncertainty_rad;
     }
   };
-  for (const std::optional<Plane> &plane : beside)
-    offer(plane, 1.0);
-  for (const int column : {-1, 0})
-    for (const int row : {-1, 0}) {
-      const int left = 2 * n * column, up = 2 * n * row;
-      offer(fitted_plane(around, {left, left + 2 * n, up, up + 2 * n}), 1.0);
-      if (n == 1)
-        offer(fitted_plane(around, {column, column + 1, row, row + 1}), better_of_four / better_beside);
+  std::ranges::for_each(beside, offer);
+  for (const int left : {-2 * n, 0})
+    for (const int up : {-2 * n, 0}) {
+      offer(fitted_plane(around, {left, left + 2 * n, up, up + 2 * n}));
+      offer(fitted_plane(around, {left, left + 2 * n, up, up + 2 * n, 2 * n}));
     }
-  if (!best)
-    return {-around.frame().along, 1.0, {}};
-  if (about && best->g == about->g)
-    return surface_of(around, *best, smooth_uncertainty_rad(around, n, *best, beside), bend_m(around, *best));
-  return surface_of(around, *best, best->uncertainty_rad, {});
+  if (!best && about)
+    return surface_about(around, *about, smooth_uncertainty_rad(around, n, *about, beside));
+  SurfaceFit surface = best ? surface_of(around, *best, best_rad) : SurfaceFit{-around.frame().along};
+  surface.one_sided = !around.is_at_border(n); // beyond the image nothing can be
+  return surface;
+}
+
+// How far a normal is from what the four neighbours say of it: the nearest of theirs, on a flat facet, or the
+// means of opposite ones, on a curved surface. A plane that fits by chance has no such neighbours.
+double disagreement_rad(const std::vector<SurfaceFit> &fits, const glm::uvec2 &resolution, glm::uvec2 at) {
+  const std::size_t pixel = std::size_t{at.y} * resolution.x + at.x;
+  const glm::dvec3 &own = fits[pixel].normal;
+  double nearest = 2.0, of_means = 0.0;
+  const auto compare = [&](bool has_before, bool has_after, std::size_t step) {
+    if (has_before)
+      nearest = std::min(nearest, glm::distance(fits[pixel - step].normal, own));
+    if (has_after)
+      nearest = std::min(nearest, glm::distance(fits[pixel + step].normal, own));
+    of_means =
+        has_before && has_after
+            ? std::max(of_means,
+                       glm::distance(0.5 * (fits[pixel - step].normal + fits[pixel + step].normal), own))
+            : 2.0;
+  };
+  compare(at.x > 0, at.x + 1 < resolution.x, 1);
+  compare(at.y > 0, at.y + 1 < resolution.y, resolution.x);
+  return std::min(nearest, of_means);
 }
 
 double median_of(std::vector<double> values) {
@@ -234,7 +272,15 @@ std::vector<SurfaceFit> fit_surfaces(const RangeImage &image, std::uint32_t n) {
         fits[pixel].normal = -image.ray[pixel];
     }
   });
-  return fits;
+  std::vector<SurfaceFit> compared = fits;
+  tbb::parallel_for(0u, image.resolution.y, [&](std::uint32_t row) {
+    for (std::uint32_t column = 0; column < image.resolution.x; ++column) {
+      SurfaceFit &fit = compared[std::size_t{row} * image.resolution.x + column];
+      fit.uncertainty_rad =
+          std::max(fit.uncertainty_rad, disagreement_rad(fits, image.resolution, {column, row}));
+    }
+  });
+  return compared;
 }
 
 double noise_of(const RangeImage &image) {

@@ -19,6 +19,9 @@ struct RangeImage {
 struct SurfaceFit {
   glm::dvec3 normal{0.0};       // unit length, towards the lens; towards it at all where no plane fits
   double uncertainty_rad = 1.0; // of the normal: how far it may be off, estimated
+  // The plane fits pixels beside this one only, to which it need not belong: where two surfaces meet, some
+  // pixels of one lie in the plane of the other.
+  bool one_sided = true;
   // How far the surface bends away from its plane, along the columns and along the rows: second differences
   // of range; 0 where the window reaches to one side only.
   glm::dvec2 bend_m{0.0};
@@ -26,8 +29,8 @@ struct SurfaceFit {
 
 // On surfaces as smooth as pixels can tell, an inverse range is linear in the ray: 1 / r = g . u, of a plane
 // with the normal along g. For each pixel the plane is fitted to a window of (2 n + 1) x (2 n + 1) pixels
-// about it, or, where that fits clearly better, to one beside which it lies, on any of eight sides; with
-// n = 1 also to 2 x 2 pixels at a corner.
+// about it, or, where that fits clearly better, to one on whose border it lies, on any of eight sides, or to
+// the half of one at whose corner it lies.
 std::vector<SurfaceFit> fit_surfaces(const RangeImage &image, std::uint32_t n);
 
 // The standard deviation of single ranges, by what is left of the neighbours of a pixel when the part that is
