@@ -18,8 +18,12 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t most_passes = 6;
 // A pass that moves no pixel that is sure by more is the last.
-constexpr double settled_m = 2e-8;
-constexpr double least_edge_limit_m = 2e-6;
+constexpr double settled_m = 2e-8, settled_noises = 1e-2;
+// An edge is where a normal moves the range by so much, and by so many times as much as in half of all
+// pixels, or where the normal is so uncertain.
+constexpr double least_edge_limit_m = 2e-6, edge_errors = 5.0, edge_rad = 0.1;
+// By then normals are so near that ranges change with them as they did before.
+constexpr std::uint32_t last_pass_of_sensitivity = 2;
 constexpr std::uint32_t rows_between_progress = 32;
 
 std::size_t pixels_of(const Sensor &sensor) { return sensor.pixel_count(); }
@@ -77,17 +81,21 @@ private:
   PointOnRay point(std::size_t pixel) const {
     return {result_.ray[pixel], result_.range_m[pixel], result_.normal[pixel]};
   }
-  RangeImage ranges() const { return {sensor_.resolution, result_.ray, result_.range_m}; }
+  RangeImage ranges() const {
+    return {sensor_.resolution, result_.ray, result_.range_m, result_.normal, per_normal_m_, result_.noise_m};
+  }
 
   void find_rays();
   void first_pass();
   FoundRange first_range(std::size_t pixel, double &offset_m) const;
+  void find_sensitivity();
   void fit();
   void refine();
   double excess_rad(std::uint32_t row, std::uint32_t column, const SurfaceFit &fit) const;
   double refine_pixel(std::uint32_t row, std::uint32_t column);
   void finish();
   void finish_pixel(std::size_t pixel);
+  void mark_edges();
 
   const Sensor &sensor_;
   Lens lens_;
@@ -97,6 +105,7 @@ private:
   const std::function<void(double)> &progress_;
   std::vector<glm::dvec2> area_points_;
   std::vector<SurfaceFit> fits_;
+  std::vector<glm::dvec3> per_normal_m_;
   CorrectedImage result_;
 };
 
@@ -142,18 +151,25 @@ void Correction::first_pass() {
         set(at, first_range(at, offset_m));
     }
   });
-  const double noise_m = noise_of(ranges());
-  result_.noise_m = noise_m;
-  result_.edge_limit_m = std::max(least_edge_limit_m, std::isfinite(noise_m) ? 0.1 * noise_m : 0.0);
-  const double spacing_m = spacing_of(ranges());
-  result_.fit_pixels = options_.fit_pixels > 0  ? options_.fit_pixels
-                       : std::isfinite(noise_m) ? fit_pixels_for(noise_m, spacing_m)
-                                                : 1;
+  result_.noise_m = noise_of(ranges());
+  result_.fit_pixels =
+      options_.fit_pixels > 0 ? options_.fit_pixels : fit_pixels_for(result_.noise_m, spacing_of(ranges()));
+}
+
+void Correction::find_sensitivity() {
+  if (options_.backscatter != Backscatter::lambert || result_.passes > last_pass_of_sensitivity)
+    return;
+  per_normal_m_.assign(pixels_of(sensor_), glm::dvec3(0.0));
+  tbb::parallel_for(std::size_t{0}, per_normal_m_.size(), [&](std::size_t at) {
+    if (std::isfinite(result_.range_m[at]))
+      per_normal_m_[at] = search_.range_per_normal_m(point(at));
+  });
 }
 
 // A normal stays as uncertain as it was at first: where no plane fits, a pixel's range and its normal settle
 // on one that does, by and by, as each follows from the other.
 void Correction::fit() {
+  find_sensitivity();
   std::vector<SurfaceFit> fits = fit_surfaces(ranges(), result_.fit_pixels);
   for (std::size_t at = 0; at < fits_.size(); ++at) {
     fits[at].uncertainty_rad = std::max(fits[at].uncertainty_rad, fits_[at].uncertainty_rad);
@@ -172,7 +188,8 @@ void Correction::refine() {
         moved_m[row] = std::max(moved_m[row], refine_pixel(row, column));
     });
     result_.last_change_m = std::ranges::max(moved_m);
-  } while (result_.last_change_m > settled_m && result_.passes < most_passes);
+  } while (result_.last_change_m > std::max(settled_m, settled_noises * result_.noise_m) &&
+           result_.passes < most_passes);
 }
 
 // By how much the phase of the pixel's mean exceeds that of its centre.
@@ -222,17 +239,32 @@ void Correction::finish_pixel(std::size_t at) {
   result_.correction_m[at] = std::remainder(measured_m - result_.range_m[at], ambiguity_m);
   if (fits_.empty())
     return;
-  result_.normal_error_m[at] = search_.range_per_normal_m(point(at)) * fits_[at].uncertainty_rad;
-  const bool by_normal = options_.backscatter == Backscatter::lambert;
-  if (by_normal && (fits_[at].one_sided || !(result_.normal_error_m[at] <= result_.edge_limit_m)))
-    result_.status[at] = static_cast<std::uint32_t>(PixelStatus::edge);
+  const double by_normal_m =
+      per_normal_m_.empty() ? 0.0 : glm::length(per_normal_m_[at]) * fits_[at].uncertainty_rad;
+  result_.normal_error_m[at] = std::max(by_normal_m, area_points_.empty() ? 0.0 : fits_[at].off_m);
+}
+
+void Correction::mark_edges() {
+  std::vector<double> errors_m;
+  for (std::size_t at = 0; at < fits_.size(); ++at)
+    if (!fits_[at].one_sided && std::isfinite(result_.normal_error_m[at]))
+      errors_m.push_back(result_.normal_error_m[at]);
+  result_.edge_limit_m = least_edge_limit_m;
+  if (!errors_m.empty()) {
+    const auto middle = errors_m.begin() + static_cast<std::ptrdiff_t>(errors_m.size() / 2);
+    std::nth_element(errors_m.begin(), middle, errors_m.end());
+    result_.edge_limit_m = std::fmax(least_edge_limit_m, edge_errors * *middle);
+  }
+  for (std::size_t at = 0; at < fits_.size(); ++at)
+    if (status(at) == PixelStatus::corrected &&
+        (fits_[at].one_sided || fits_[at].uncertainty_rad > edge_rad ||
+         !(result_.normal_error_m[at] <= result_.edge_limit_m)))
+      result_.status[at] = static_cast<std::uint32_t>(PixelStatus::edge);
 }
 
 void Correction::finish() {
-  tbb::parallel_for(0u, sensor_.resolution.y, [&](std::uint32_t row) {
-    for (std::uint32_t column = 0; column < sensor_.resolution.x; ++column)
-      finish_pixel(pixel(row, column));
-  });
+  tbb::parallel_for(std::size_t{0}, result_.range_m.size(), [&](std::size_t at) { finish_pixel(at); });
+  mark_edges();
   for (const std::uint32_t status : result_.status)
     ++result_.counts[status];
 }

@@ -38,9 +38,9 @@ struct CorrectionOptions {
 // What became of a pixel.
 enum class PixelStatus : std::uint32_t {
   corrected = 0,
-  // Corrected, but its normal, of which its range depends, is uncertain: it moves the range by more than
-  // CorrectedImage::edge_limit_m, or is of a plane beside the pixel. At steps and edges, in pixels that mix
-  // two surfaces, on thin things. Not with Backscatter::constant, of which normals are no part.
+  // Corrected, but its normal, on which its range depends, is of a plane beside the pixel, or so uncertain
+  // that the range is by more than CorrectedImage::edge_limit_m. At steps and edges, in pixels that mix two
+  // surfaces, on thin things.
   edge = 1,
   not_measured = 2, // the image has no number there, or the lens no ray
   no_light = 3,     // no diode lights any point of the ray
@@ -57,7 +57,7 @@ struct CorrectedImage {
   std::vector<std::uint32_t> status;  // PixelStatus
   std::size_t counts[status_count] = {};
   double noise_m = 0.0;      // of single ranges, found where neighbours disagree; NaN where it is not known
-  double edge_limit_m = 0.0; // of PixelStatus::edge
+  double edge_limit_m = 0.0; // of PixelStatus::edge: 2 um, or what noise makes of most normals
   std::uint32_t fit_pixels = 0; // that were used
   std::uint32_t passes = 0;
   double last_change_m = 0.0; // the largest, of any corrected pixel, by the last pass

@@ -26,7 +26,8 @@ RangeSearch::RangeSearch(const Sensor &sensor, const std::vector<Illuminator> &i
     : rows_(diode_rows(sensor, illuminators)), demodulation_(demodulation_of(sensor)),
       turns_per_m_(sensor.modulation_hz.at(options.frequency) / speed_of_light_m_s),
       ambiguity_m_(sensor.ambiguity_m(options.frequency)),
-      lambert_(options.backscatter == Backscatter::lambert) {}
+      lambert_(options.backscatter == Backscatter::lambert),
+      vignetting_(sensor.vignetting == Vignetting::cos4) {}
 
 ModelReturn RangeSearch::model_return(const PointOnRay &at, bool with_normal) const {
   ModelReturn sum{};
@@ -97,21 +98,22 @@ double RangeSearch::phase_excess_rad(const PointOnRay &at, std::span<const glm::
     const double cosine = glm::dot(at.normal, ray);
     if (!(cosine < 0.0)) // the plane ends before this ray
       return 0.0;
-    mean += model_return({ray, height_m / cosine, at.normal}).z;
+    const double square = ray.z * ray.z, weight = vignetting_ ? square * square : 1.0;
+    mean += weight * model_return({ray, height_m / cosine, at.normal}).z;
   }
   const std::complex<double> centre = model_return(at).z;
   return mean == 0.0 || centre == 0.0 ? 0.0 : std::arg(mean * std::conj(centre));
 }
 
-double RangeSearch::range_per_normal_m(const PointOnRay &at) const {
+glm::dvec3 RangeSearch::range_per_normal_m(const PointOnRay &at) const {
   if (!lambert_)
-    return 0.0;
+    return glm::dvec3(0.0);
   const ModelReturn model = model_return(at, true);
-  glm::dvec3 phase_per_normal;
+  const double slope = phase_slope(model) * std::norm(model.z);
+  glm::dvec3 per_normal;
   for (int axis = 0; axis < 3; ++axis)
-    phase_per_normal[axis] = std::imag(std::conj(model.z) * model.per_normal[axis]) / std::norm(model.z);
-  const glm::dvec3 across = phase_per_normal - glm::dot(phase_per_normal, at.normal) * at.normal;
-  return glm::length(across) / std::abs(phase_slope(model));
+    per_normal[axis] = -std::imag(std::conj(model.z) * model.per_normal[axis]) / slope;
+  return per_normal;
 }
 
 } // namespace pmdsim

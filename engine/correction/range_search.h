@@ -32,14 +32,14 @@ public:
 
   // By how much the phase of the mean return of a plane's points on the given rays exceeds that at the point.
   double phase_excess_rad(const PointOnRay &at, std::span<const glm::dvec3> rays) const;
-  // How far the range is off, m, for a normal that is off by one radian at worst.
-  double range_per_normal_m(const PointOnRay &at) const;
+  // How the range that has the same phase changes with the normal, m for each unit of it.
+  glm::dvec3 range_per_normal_m(const PointOnRay &at) const;
 
 private:
   std::vector<DiodeRow> rows_;
   Demodulation demodulation_;
   double turns_per_m_, ambiguity_m_;
-  bool lambert_;
+  bool lambert_, vignetting_;
 };
 
 } // namespace pmdsim

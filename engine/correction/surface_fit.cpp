@@ -12,8 +12,11 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-// A window that fits so well is not doubted.
-constexpr double sure_rad = 5e-5;
+// A window that fits so well, by the noise, is not doubted.
+constexpr double sure_noises = 1.5, sure_rad = 2e-5;
+// Where ranges depend more on their normals, for each distance of neighbouring points, windows have a normal
+// in common.
+constexpr double least_common_gain = 0.35;
 // How much better than the window about a pixel another one must fit: on a smooth, curved surface all fit
 // alike, but only that one's normal is the pixel's own.
 constexpr double better_beside = 4.0;
@@ -36,7 +39,20 @@ struct Window {
 // A plane's g in the frame of the pixel's ray, and how far it may be off.
 struct Plane {
   glm::dvec3 g;
-  double uncertainty_rad;
+  double uncertainty_rad, residual_m;
+
+  glm::dvec3 normal() const { return -glm::normalize(g); }
+};
+
+// A pixel in that frame.
+struct Point {
+  glm::dvec3 direction;
+  double range_m;
+  glm::dvec3 normal, per_normal_m;
+
+  double range_for_m(const glm::dvec3 &of_plane) const {
+    return range_m + glm::dot(per_normal_m, of_plane - normal);
+  }
 };
 
 struct Frame {
@@ -57,7 +73,9 @@ glm::dvec3 within(const Frame &frame, const glm::dvec3 &ray) {
 class Neighbourhood {
 public:
   Neighbourhood(const RangeImage &image, glm::ivec2 at)
-      : image_(image), at_(at), frame_(frame_about(image.ray[index(0, 0)])) {}
+      : image_(image), at_(at), frame_(frame_about(image.ray[index(0, 0)])) {
+    common_normal_ = gain() > least_common_gain;
+  }
 
   const Frame &frame() const { return frame_; }
   bool has(int column, int row) const {
@@ -70,8 +88,27 @@ public:
     return at_.x < n || at_.y < n || end.x >= static_cast<int>(image_.resolution.x) ||
            end.y >= static_cast<int>(image_.resolution.y);
   }
+  double noise_m() const { return image_.noise_m; }
   double range_m(int column, int row) const { return image_.range_m[index(column, row)]; }
   glm::dvec3 direction(int column, int row) const { return within(frame_, image_.ray[index(column, row)]); }
+  Point point(int column, int row) const {
+    Point point{direction(column, row), range_m(column, row), {}, glm::dvec3(0.0)};
+    if (common_normal_) {
+      point.normal = within(frame_, image_.normal[index(column, row)]);
+      point.per_normal_m = within(frame_, image_.per_normal_m[index(column, row)]);
+    }
+    return point;
+  }
+  bool common_normal() const { return common_normal_; }
+  // How far the pixel moves by its normal, for each radian, over the distance of neighbouring points.
+  double gain() const {
+    if (image_.per_normal_m.empty())
+      return 0.0;
+    const int column = at_.x > 0 ? -1 : 1;
+    const double apart_m =
+        range_m(0, 0) * glm::distance(image_.ray[index(0, 0)], image_.ray[index(column, 0)]);
+    return glm::length(image_.per_normal_m[index(0, 0)]) / apart_m;
+  }
 
   template <class Visit>
   void visit(const Window &window, Visit visit) const {
@@ -90,46 +127,77 @@ private:
   const RangeImage &image_;
   glm::ivec2 at_;
   Frame frame_;
+  bool common_normal_ = false;
 };
 
 // Range minus that of the plane, to first order.
-double residual_m(const Neighbourhood &around, const glm::dvec3 &g, int column, int row) {
-  const double range_m = around.range_m(column, row);
-  return range_m * (range_m * glm::dot(g, around.direction(column, row)) - 1.0);
+double residual_m(const Point &point, const Plane &plane) {
+  const double range_m = point.range_for_m(plane.normal());
+  return range_m * (range_m * glm::dot(plane.g, point.direction) - 1.0);
 }
 
-// Least squares of 1 / r. Nothing where the pixels lie in a line, or are too few.
+// Least squares of 1 / r over the points of a window.
+class PlaneFit {
+public:
+  PlaneFit(const Neighbourhood &around, const Window &window) {
+    around.visit(window, [&](int column, int row) { points_.push_back(around.point(column, row)); });
+    is_possible_ = static_cast<int>(points_.size()) >= window.least_count() && invert();
+  }
+
+  // Nothing where the pixels lie in a line, or are too few.
+  std::optional<Plane> plane(bool common_normal) const {
+    if (!is_possible_)
+      return std::nullopt;
+    constexpr int most_rounds = 30;
+    constexpr double settled = 1e-11;
+    Plane plane{solve(points_.front().normal, false), 0.0, 0.0};
+    for (int round = 0; common_normal && round < most_rounds; ++round) {
+      const glm::dvec3 before = plane.normal();
+      plane.g = solve(before, true);
+      if (glm::distance(plane.normal(), before) < settled)
+        break;
+    }
+    double squares = 0.0;
+    for (const Point &point : points_) {
+      const double off = residual_m(point, plane);
+      squares += off * off;
+    }
+    plane.residual_m = std::sqrt(squares / static_cast<double>(points_.size() - 3));
+    const double range_m = points_.front().range_m;
+    plane.uncertainty_rad = plane.residual_m / (range_m * range_m * glm::length(plane.g)) *
+                            std::sqrt(inverse_[1][1] + inverse_[2][2]);
+    return plane;
+  }
+
+private:
+  bool invert() {
+    glm::dmat3 matrix(0.0);
+    for (const Point &point : points_)
+      matrix += glm::outerProduct(point.direction, point.direction);
+    // Scaled, as a ray's parts across are small.
+    const glm::dvec3 scale(1.0 / std::sqrt(matrix[0][0]), 1.0 / std::sqrt(matrix[1][1]),
+                           1.0 / std::sqrt(matrix[2][2]));
+    const glm::dmat3 scaling(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z);
+    const glm::dmat3 scaled = scaling * matrix * scaling;
+    if (!(glm::determinant(scaled) > 1e-9))
+      return false;
+    inverse_ = scaling * glm::inverse(scaled) * scaling;
+    return true;
+  }
+  glm::dvec3 solve(const glm::dvec3 &normal, bool for_normal) const {
+    glm::dvec3 right(0.0);
+    for (const Point &point : points_)
+      right += point.direction / (for_normal ? point.range_for_m(normal) : point.range_m);
+    return inverse_ * right;
+  }
+
+  std::vector<Point> points_;
+  glm::dmat3 inverse_{0.0};
+  bool is_possible_ = false;
+};
+
 std::optional<Plane> fitted_plane(const Neighbourhood &around, const Window &window) {
-  glm::dmat3 matrix(0.0);
-  glm::dvec3 right(0.0);
-  int count = 0;
-  around.visit(window, [&](int column, int row) {
-    const glm::dvec3 a = around.direction(column, row);
-    matrix += glm::outerProduct(a, a);
-    right += a / around.range_m(column, row);
-    ++count;
-  });
-  if (count < window.least_count())
-    return std::nullopt;
-  // Scaled, as a ray's parts across are small.
-  const glm::dvec3 scale(1.0 / std::sqrt(matrix[0][0]), 1.0 / std::sqrt(matrix[1][1]),
-                         1.0 / std::sqrt(matrix[2][2]));
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k)
-      matrix[i][k] *= scale[i] * scale[k];
-  const double determinant = glm::determinant(matrix);
-  if (!(determinant > 1e-9))
-    return std::nullopt;
-  const glm::dmat3 inverse = glm::inverse(matrix);
-  const glm::dvec3 g = scale * (inverse * (scale * right));
-  double squares = 0.0;
-  around.visit(window, [&](int column, int row) {
-    const double off = glm::dot(g, around.direction(column, row)) - 1.0 / around.range_m(column, row);
-    squares += off * off;
-  });
-  const double variance =
-      squares / (count - 3) * (scale.y * scale.y * inverse[1][1] + scale.z * scale.z * inverse[2][2]);
-  return Plane{g, std::sqrt(variance) / glm::length(g)};
+  return PlaneFit(around, window).plane(around.common_normal());
 }
 
 // How far a normal may be off because surfaces are not planes: by the part of the residuals that is odd about
@@ -142,7 +210,7 @@ double smooth_uncertainty_rad(const Neighbourhood &around, int n, const Plane &p
     if ((row == 0 && column >= 0) || !around.has(-column, -row))
       return;
     const double odd =
-        0.5 * (residual_m(around, plane.g, column, row) - residual_m(around, plane.g, -column, -row));
+        0.5 * (residual_m(around.point(column, row), plane) - residual_m(around.point(-column, -row), plane));
     squares += odd * odd;
     const glm::dvec3 off =
         around.range_m(column, row) * (around.direction(column, row) - glm::dvec3(1, 0, 0));
@@ -162,8 +230,8 @@ glm::dvec2 bend_m(const Neighbourhood &around, const Plane &plane) {
   const auto second = [&](int column, int row) {
     if (!around.has(column, row) || !around.has(-column, -row))
       return 0.0;
-    return residual_m(around, plane.g, column, row) + residual_m(around, plane.g, -column, -row) -
-           2.0 * residual_m(around, plane.g, 0, 0);
+    return residual_m(around.point(column, row), plane) + residual_m(around.point(-column, -row), plane) -
+           2.0 * residual_m(around.point(0, 0), plane);
   };
   return {second(1, 0), second(0, 1)};
 }
@@ -185,7 +253,7 @@ SurfaceFit surface_about(const Neighbourhood &around, const Plane &plane, double
 
 SurfaceFit fit_surface(const Neighbourhood &around, int n) {
   const std::optional<Plane> about = fitted_plane(around, {-n, n, -n, n});
-  if (about && about->uncertainty_rad < sure_rad)
+  if (about && (about->residual_m < sure_noises * around.noise_m() || about->uncertainty_rad < sure_rad))
     return surface_about(around, *about, about->uncertainty_rad);
   const std::array<std::optional<Plane>, 4> beside{
       fitted_plane(around, {-2 * n, 0, -n, n}), fitted_plane(around, {0, 2 * n, -n, n}),
@@ -207,8 +275,34 @@ SurfaceFit fit_surface(const Neighbourhood &around, int n) {
   if (!best && about)
     return surface_about(around, *about, smooth_uncertainty_rad(around, n, *about, beside));
   SurfaceFit surface = best ? surface_of(around, *best, best_rad) : SurfaceFit{-around.frame().along};
-  surface.one_sided = !around.is_at_border(n); // beyond the image nothing can be
+  surface.one_sided = !best || !around.is_at_border(n); // beyond the image nothing can be
+  surface.off_m = best ? best->residual_m : 0.0;
   return surface;
+}
+
+// By how much normals turn from a pixel to the next, where they are found as if they did not.
+double turn_rad(const std::vector<SurfaceFit> &fits, const glm::uvec2 &resolution, glm::uvec2 at) {
+  const std::size_t pixel = std::size_t{at.y} * resolution.x + at.x;
+  const auto between = [&](bool has_before, bool has_after, std::size_t step) {
+    const std::size_t before = has_before ? pixel - step : pixel, after = has_after ? pixel + step : pixel;
+    return glm::distance(fits[before].normal, fits[after].normal) / (has_before && has_after ? 2.0 : 1.0);
+  };
+  const double turn = std::max(between(at.x > 0, at.x + 1 < resolution.x, 1),
+                               between(at.y > 0, at.y + 1 < resolution.y, resolution.x));
+  constexpr double least_uncertainties = 4.0; // noise turns them, too
+  return std::max(turn - least_uncertainties * fits[pixel].uncertainty_rad, 0.0);
+}
+
+// A pixel that alone lies off makes the bend three times as different from that of the neighbours.
+double off_m(const std::vector<SurfaceFit> &fits, const glm::uvec2 &resolution, glm::uvec2 at) {
+  const std::size_t pixel = std::size_t{at.y} * resolution.x + at.x;
+  glm::dvec2 difference(0.0);
+  if (at.x > 0 && at.x + 1 < resolution.x)
+    difference.x = fits[pixel].bend_m.x - 0.5 * (fits[pixel - 1].bend_m.x + fits[pixel + 1].bend_m.x);
+  if (at.y > 0 && at.y + 1 < resolution.y)
+    difference.y = fits[pixel].bend_m.y -
+                   0.5 * (fits[pixel - resolution.x].bend_m.y + fits[pixel + resolution.x].bend_m.y);
+  return std::max(std::abs(difference.x), std::abs(difference.y)) / 3.0;
 }
 
 // How far a normal is from what the four neighbours say of it: the nearest of theirs, on a flat facet, or the
@@ -233,17 +327,18 @@ double disagreement_rad(const std::vector<SurfaceFit> &fits, const glm::uvec2 &r
   return std::min(nearest, of_means);
 }
 
-double median_of(std::vector<double> values) {
+// The value that so many of all do not exceed.
+double quantile(std::vector<double> values, double share) {
   if (values.empty())
     return not_known;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
 }
 
 // What `value_of` says of the pixels that have all eight neighbours.
 template <class ValueOf>
-double median_inside(const RangeImage &image, ValueOf value_of) {
+std::vector<double> inside(const RangeImage &image, ValueOf value_of) {
   std::vector<double> values;
   for (int row = 1; row + 1 < static_cast<int>(image.resolution.y); ++row)
     for (int column = 1; column + 1 < static_cast<int>(image.resolution.x); ++column) {
@@ -256,60 +351,69 @@ double median_inside(const RangeImage &image, ValueOf value_of) {
       if (count == 9)
         values.push_back(value_of(around));
     }
-  return median_of(std::move(values));
+  return values;
 }
 
 } // namespace
 
 std::vector<SurfaceFit> fit_surfaces(const RangeImage &image, std::uint32_t n) {
   std::vector<SurfaceFit> fits(image.range_m.size());
+  std::vector<double> gains(fits.size(), 0.0); // where windows have a normal in common
   tbb::parallel_for(0u, image.resolution.y, [&](std::uint32_t row) {
     for (std::uint32_t column = 0; column < image.resolution.x; ++column) {
       const std::size_t pixel = std::size_t{row} * image.resolution.x + column;
-      if (std::isfinite(image.range_m[pixel]))
-        fits[pixel] = fit_surface(Neighbourhood(image, {column, row}), static_cast<int>(n));
-      else
+      if (std::isfinite(image.range_m[pixel])) {
+        const Neighbourhood around(image, {column, row});
+        fits[pixel] = fit_surface(around, static_cast<int>(n));
+        gains[pixel] = around.common_normal() ? around.gain() : 0.0;
+      } else {
         fits[pixel].normal = -image.ray[pixel];
+      }
     }
   });
   std::vector<SurfaceFit> compared = fits;
   tbb::parallel_for(0u, image.resolution.y, [&](std::uint32_t row) {
     for (std::uint32_t column = 0; column < image.resolution.x; ++column) {
-      SurfaceFit &fit = compared[std::size_t{row} * image.resolution.x + column];
-      fit.uncertainty_rad =
-          std::max(fit.uncertainty_rad, disagreement_rad(fits, image.resolution, {column, row}));
+      const std::size_t pixel = std::size_t{row} * image.resolution.x + column;
+      compared[pixel].off_m = std::max(fits[pixel].off_m, off_m(fits, image.resolution, {column, row}));
+      compared[pixel].uncertainty_rad =
+          std::max({fits[pixel].uncertainty_rad, disagreement_rad(fits, image.resolution, {column, row}),
+                    gains[pixel] * turn_rad(fits, image.resolution, {column, row})});
     }
   });
   return compared;
 }
 
 double noise_of(const RangeImage &image) {
-  return median_inside(image, [](const Neighbourhood &around) {
+  const auto odd_parts = inside(image, [](const Neighbourhood &around) {
     const std::optional<Plane> plane = fitted_plane(around, {-1, 1, -1, 1});
     if (!plane)
-      return not_known;
+      return std::numeric_limits<double>::max();
     double squares = 0.0;
     for (const auto &[column, row] :
          {std::pair(-1, -1), std::pair(0, -1), std::pair(1, -1), std::pair(-1, 0)}) {
-      const double odd =
-          0.5 * (residual_m(around, plane->g, column, row) - residual_m(around, plane->g, -column, -row));
+      const double odd = 0.5 * (residual_m(around.point(column, row), *plane) -
+                                residual_m(around.point(-column, -row), *plane));
       squares += odd * odd;
     }
-    return std::sqrt(squares); // two of the four pairs' odd parts are the plane's; each has half the variance
+    return squares; // of two degrees of freedom, each with half of the variance of a range
   });
+  constexpr double share = 0.2; // of an exponential distribution
+  return std::sqrt(quantile(odd_parts, share) / -std::log(1.0 - share));
 }
 
 double spacing_of(const RangeImage &image) {
-  return median_inside(image, [](const Neighbourhood &around) {
+  const auto spacings_m = inside(image, [](const Neighbourhood &around) {
     const glm::dvec3 across = 0.5 * (around.direction(1, 0) - around.direction(-1, 0)),
                      down = 0.5 * (around.direction(0, 1) - around.direction(0, -1));
     return around.range_m(0, 0) * std::sqrt(glm::length(glm::cross(across, down)));
   });
+  return quantile(spacings_m, 0.5);
 }
 
 std::uint32_t fit_pixels_for(double noise_m, double spacing_m) {
-  constexpr double wanted_rad = 5e-3;
-  constexpr std::uint32_t most = 16;
+  constexpr double wanted_rad = 2e-2;
+  constexpr std::uint32_t most = 8;
   std::uint32_t n = 1;
   const auto uncertainty_rad = [&] {
     const double side = 2.0 * n + 1.0; // the sum of squares of either offset is side^2 n (n + 1) / 3
