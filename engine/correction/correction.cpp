@@ -1,5 +1,6 @@
 #include "engine/correction/correction.h"
 
+#include "engine/correction/range_noise.h"
 #include "engine/correction/range_search.h"
 #include "engine/correction/surface_fit.h"
 #include "engine/lens/lens.h"

@@ -2,23 +2,12 @@
 // The surface around each pixel, from the ranges of its neighbours: planes that are fitted to windows of
 // pixels, of which none is to reach across a step or an edge.
 
+#include "engine/correction/range_image.h"
+
 #include <cstdint>
-#include <glm/glm.hpp>
-#include <span>
 #include <vector>
 
 namespace pmdsim {
-
-// Row-major, rows * columns values, which outlive it.
-struct RangeImage {
-  glm::uvec2 resolution;                // columns, rows
-  std::span<const glm::dvec3> ray;      // unit length, camera frame
-  std::span<const double> range_m;      // not finite where there is none
-  std::span<const glm::dvec3> normal{}; // for which the ranges were found
-  // How a range changes with its normal, m for each unit; empty: not at all.
-  std::span<const glm::dvec3> per_normal_m{};
-  double noise_m = 0.0; // of ranges: what a plane may be off
-};
 
 struct SurfaceFit {
   glm::dvec3 normal{0.0};       // unit length, towards the lens; towards it at all where no plane fits
@@ -42,16 +31,5 @@ struct SurfaceFit {
 // normals and normals found by one another's ranges never settle. There the ranges of a window are taken for
 // the normal of its plane, to first order, all of them alike.
 std::vector<SurfaceFit> fit_surfaces(const RangeImage &image, std::uint32_t n);
-
-// The standard deviation of single ranges, by what is left of the neighbours of a pixel when the part that is
-// even about it is taken off, which a curved surface leaves, too. It is found where the image is smoothest,
-// in a fifth of it. NaN where no pixel has all eight neighbours.
-double noise_of(const RangeImage &image);
-
-// The distance of points of neighbouring pixels, if surfaces faced the lens: the median. NaN likewise.
-double spacing_of(const RangeImage &image);
-
-// The least n with which a normal is uncertain by 20 mrad or less, by noise; at most 8.
-std::uint32_t fit_pixels_for(double noise_m, double spacing_m);
 
 } // namespace pmdsim
