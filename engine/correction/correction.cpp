@@ -17,7 +17,7 @@ namespace pmdsim {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint32_t most_passes = 6;
+constexpr std::uint32_t most_passes = 8;
 // A pass that moves no pixel that is sure by more is the last.
 constexpr double settled_m = 2e-8, settled_noises = 1e-2;
 // An edge is where a normal moves the range by so much, and by so many times as much as in half of all
@@ -93,6 +93,7 @@ private:
   void fit();
   void refine();
   double excess_rad(std::uint32_t row, std::uint32_t column, const SurfaceFit &fit) const;
+  bool is_settled(std::size_t pixel) const;
   double refine_pixel(std::uint32_t row, std::uint32_t column);
   void finish();
   void finish_pixel(std::size_t pixel);
@@ -107,6 +108,7 @@ private:
   std::vector<glm::dvec2> area_points_;
   std::vector<SurfaceFit> fits_;
   std::vector<glm::dvec3> per_normal_m_;
+  std::vector<double> moved_m_; // by the last pass
   CorrectedImage result_;
 };
 
@@ -167,46 +169,60 @@ void Correction::find_sensitivity() {
   });
 }
 
-// A normal stays as uncertain as it was at first: where no plane fits, a pixel's range and its normal settle
-// on one that does, by and by, as each follows from the other.
+// A normal stays as uncertain as it was at first, once it is no longer a guess: where no plane fits, a
+// pixel's range and its normal settle on one that does, by and by, as each follows from the other.
 void Correction::fit() {
   find_sensitivity();
-  std::vector<SurfaceFit> fits = fit_surfaces(ranges(), result_.fit_pixels);
+  RangeImage image = ranges();
+  image.normals_guessed = fits_.empty();
+  std::vector<SurfaceFit> fits = fit_surfaces(image, result_.fit_pixels);
   for (std::size_t at = 0; at < fits_.size(); ++at) {
-    fits[at].uncertainty_rad = std::max(fits[at].uncertainty_rad, fits_[at].uncertainty_rad);
+    if (result_.passes > 2)
+      fits[at].uncertainty_rad = std::max(fits[at].uncertainty_rad, fits_[at].uncertainty_rad);
     fits[at].one_sided = fits[at].one_sided || fits_[at].one_sided;
   }
   fits_ = std::move(fits);
 }
 
 void Correction::refine() {
-  std::vector<double> moved_m(sensor_.resolution.y);
+  std::vector<double> most_moved_m(sensor_.resolution.y);
+  moved_m_.assign(result_.range_m.size(), 0.0);
   do {
     fit();
     for_rows([&](std::uint32_t row) {
-      moved_m[row] = 0.0;
+      most_moved_m[row] = 0.0;
       for (std::uint32_t column = 0; column < sensor_.resolution.x; ++column)
-        moved_m[row] = std::max(moved_m[row], refine_pixel(row, column));
+        most_moved_m[row] = std::max(most_moved_m[row], refine_pixel(row, column));
     });
-    result_.last_change_m = std::ranges::max(moved_m);
+    result_.last_change_m = std::ranges::max(most_moved_m);
   } while (result_.last_change_m > std::max(settled_m, settled_noises * result_.noise_m) &&
            result_.passes < most_passes);
 }
 
-// By how much the phase of the pixel's mean exceeds that of its centre.
+// By how much the phase of the pixel's mean exceeds that of its centre, on a surface that bends. 0 where it
+// ends within the pixel.
 double Correction::excess_rad(std::uint32_t row, std::uint32_t column, const SurfaceFit &fit) const {
-  std::array<glm::dvec3, 4> rays;
-  double excess_rad = 0.0;
-  for (std::size_t i = 0; i < area_points_.size(); ++i) {
-    const auto ray = lens_.ray(lens_.on_chip_m(glm::dvec2(column, row) + 0.5 + area_points_[i]));
-    if (!ray)
-      return 0.0;
-    rays[i] = *ray;
-  }
   const PointOnRay at = point(pixel(row, column));
-  excess_rad = search_.phase_excess_rad(at, rays);
-  const glm::dvec2 bent_m = 0.5 * area_points_[3] * area_points_[3] * fit.bend_m;
-  return excess_rad + phase_of_distance_rad(bent_m.x + bent_m.y, sensor_.modulation_hz[options_.frequency]);
+  const double height_m = at.range_m * glm::dot(at.normal, at.ray);
+  std::array<PointOnRay, 4> around;
+  for (std::size_t i = 0; i < area_points_.size(); ++i) {
+    const glm::dvec2 &off = area_points_[i];
+    const auto ray = lens_.ray(lens_.on_chip_m(glm::dvec2(column, row) + 0.5 + off));
+    const double cosine = ray ? glm::dot(at.normal, *ray) : 0.0;
+    if (!(cosine < 0.0))
+      return 0.0;
+    const double bent_m = 0.5 * glm::dot(off * off, fit.bend_m);
+    around[i] = {*ray, height_m / cosine + bent_m,
+                 glm::normalize(at.normal + off.x * fit.turn_columns + off.y * fit.turn_rows)};
+  }
+  return search_.phase_excess_rad(at, around);
+}
+
+// Whether another normal moves the range of a pixel without an area by less than is worth a search.
+bool Correction::is_settled(std::size_t at) const {
+  constexpr double least_move_m = 1e-10;
+  return area_points_.empty() && !per_normal_m_.empty() &&
+         std::abs(glm::dot(per_normal_m_[at], fits_[at].normal - result_.normal[at])) < least_move_m;
 }
 
 // Returns how far the range moved, where the pixel is sure.
@@ -215,6 +231,9 @@ double Correction::refine_pixel(std::uint32_t row, std::uint32_t column) {
   if (!std::isfinite(result_.range_m[at]))
     return 0.0;
   const SurfaceFit &fit = fits_[at];
+  moved_m_[at] = 0.0;
+  if (is_settled(at))
+    return 0.0;
   result_.normal[at] = fit.normal;
   const double before_m = result_.range_m[at];
   double phase_rad = image_.phase_rad[at];
@@ -227,9 +246,8 @@ double Correction::refine_pixel(std::uint32_t row, std::uint32_t column) {
     return 0.0;
   }
   set(at, found);
-  return found.status == PixelStatus::corrected && fit.uncertainty_rad < 1e-2
-             ? std::abs(found.range_m - before_m)
-             : 0.0;
+  moved_m_[at] = std::abs(found.range_m - before_m);
+  return found.status == PixelStatus::corrected && fit.uncertainty_rad < 1e-2 ? moved_m_[at] : 0.0;
 }
 
 void Correction::finish_pixel(std::size_t at) {
@@ -242,7 +260,8 @@ void Correction::finish_pixel(std::size_t at) {
     return;
   const double by_normal_m =
       per_normal_m_.empty() ? 0.0 : glm::length(per_normal_m_[at]) * fits_[at].uncertainty_rad;
-  result_.normal_error_m[at] = std::max(by_normal_m, area_points_.empty() ? 0.0 : fits_[at].off_m);
+  result_.normal_error_m[at] =
+      std::max({by_normal_m, area_points_.empty() ? 0.0 : fits_[at].off_m, moved_m_[at]});
 }
 
 void Correction::mark_edges() {

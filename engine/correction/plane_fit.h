@@ -50,8 +50,8 @@ struct PixelFrame {
 
 PixelFrame frame_about(const glm::dvec3 &ray);
 
-// Where ranges depend more on their normals, for each distance of neighbouring points, windows have a normal
-// in common.
+// Where ranges depend more on their normals, for each distance of neighbouring points, or the normals are a
+// guess, windows have a normal in common.
 inline constexpr double least_common_gain = 0.35;
 
 // The pixels about one pixel.
@@ -59,7 +59,7 @@ class Neighbourhood {
 public:
   Neighbourhood(const RangeImage &image, glm::ivec2 at)
       : image_(image), at_(at), frame_(frame_about(image.ray[index(0, 0)])),
-        common_normal_(gain() > least_common_gain) {}
+        common_normal_(image.normals_guessed ? !image.per_normal_m.empty() : gain() > least_common_gain) {}
 
   const PixelFrame &frame() const { return frame_; }
   bool has(int column, int row) const {

@@ -15,6 +15,8 @@ struct RangeImage {
   // How a range changes with its normal, m for each unit; empty: not at all.
   std::span<const glm::dvec3> per_normal_m{};
   double noise_m = 0.0; // of ranges: what a plane may be off
+  // The normals are no more than a guess.
+  bool normals_guessed = false;
 };
 
 } // namespace pmdsim

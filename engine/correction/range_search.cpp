@@ -91,15 +91,11 @@ FoundRange RangeSearch::within(const PointOnRay &start, double phase_rad, double
   return found;
 }
 
-double RangeSearch::phase_excess_rad(const PointOnRay &at, std::span<const glm::dvec3> rays) const {
-  const double height_m = at.range_m * glm::dot(at.normal, at.ray);
+double RangeSearch::phase_excess_rad(const PointOnRay &at, std::span<const PointOnRay> around) const {
   std::complex<double> mean = 0.0;
-  for (const glm::dvec3 &ray : rays) {
-    const double cosine = glm::dot(at.normal, ray);
-    if (!(cosine < 0.0)) // the plane ends before this ray
-      return 0.0;
-    const double square = ray.z * ray.z, weight = vignetting_ ? square * square : 1.0;
-    mean += weight * model_return({ray, height_m / cosine, at.normal}).z;
+  for (const PointOnRay &point : around) {
+    const double square = point.ray.z * point.ray.z, weight = vignetting_ ? square * square : 1.0;
+    mean += weight * model_return(point).z;
   }
   const std::complex<double> centre = model_return(at).z;
   return mean == 0.0 || centre == 0.0 ? 0.0 : std::arg(mean * std::conj(centre));

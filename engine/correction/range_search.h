@@ -30,8 +30,8 @@ public:
   // The same within [least, least + ambiguity).
   FoundRange within(const PointOnRay &start, double phase_rad, double least_m) const;
 
-  // By how much the phase of the mean return of a plane's points on the given rays exceeds that at the point.
-  double phase_excess_rad(const PointOnRay &at, std::span<const glm::dvec3> rays) const;
+  // By how much the phase of the mean return of the given points exceeds that at the point.
+  double phase_excess_rad(const PointOnRay &at, std::span<const PointOnRay> around) const;
   // How the range that has the same phase changes with the normal, m for each unit of it.
   glm::dvec3 range_per_normal_m(const PointOnRay &at) const;
 

@@ -17,6 +17,9 @@ constexpr double sure_noises = 1.5, sure_rad = 2e-5;
 // How much better than the window about a pixel another one must fit: on a smooth, curved surface all fit
 // alike, but only that one's normal is the pixel's own.
 constexpr double better_beside = 4.0;
+// A curved surface turns from the middle of a window beside a pixel to the pixel by so many times what its
+// residuals say.
+constexpr double bent_beside = 5.0;
 // Beyond, the normal is worth nothing.
 constexpr double no_plane_rad = 0.5;
 
@@ -94,13 +97,22 @@ SurfaceFit fit_surface(const Neighbourhood &around, int n) {
     }
   if (!best && about)
     return surface_about(around, *about, smooth_uncertainty_rad(around, n, *about, beside));
-  SurfaceFit surface = best ? surface_of(around, *best, best_rad) : SurfaceFit{-around.frame().along};
+  SurfaceFit surface =
+      best ? surface_of(around, *best, bent_beside * best_rad) : SurfaceFit{-around.frame().along};
   surface.one_sided = !best || !around.is_at_border(n); // beyond the image nothing can be
   surface.off_m = best ? best->residual_m : 0.0;
   return surface;
 }
 
-// By how much normals turn from a pixel to the next, where they are found as if they did not.
+// How normals turn from a pixel to the next, `step` values on; 0 where they are not those of pixels
+// themselves.
+glm::dvec3 turn(const std::vector<SurfaceFit> &fits, std::size_t pixel, std::size_t step, bool has_both) {
+  if (!has_both || fits[pixel - step].one_sided || fits[pixel].one_sided || fits[pixel + step].one_sided)
+    return glm::dvec3(0.0);
+  return 0.5 * (fits[pixel + step].normal - fits[pixel - step].normal);
+}
+
+// The same of all neighbours, where a normal was found as if it did not turn.
 double turn_rad(const std::vector<SurfaceFit> &fits, const glm::uvec2 &resolution, glm::uvec2 at) {
   const std::size_t pixel = std::size_t{at.y} * resolution.x + at.x;
   const auto between = [&](bool has_before, bool has_after, std::size_t step) {
@@ -168,9 +180,12 @@ std::vector<SurfaceFit> fit_surfaces(const RangeImage &image, std::uint32_t n) {
   tbb::parallel_for(0u, image.resolution.y, [&](std::uint32_t row) {
     for (std::uint32_t column = 0; column < image.resolution.x; ++column) {
       const std::size_t pixel = std::size_t{row} * image.resolution.x + column;
-      compared[pixel].off_m = std::max(fits[pixel].off_m, off_m(fits, image.resolution, {column, row}));
-      compared[pixel].uncertainty_rad =
-          std::max({fits[pixel].uncertainty_rad, disagreement_rad(fits, image.resolution, {column, row}),
+      SurfaceFit &fit = compared[pixel];
+      fit.turn_columns = turn(fits, pixel, 1, column > 0 && column + 1 < image.resolution.x);
+      fit.turn_rows = turn(fits, pixel, image.resolution.x, row > 0 && row + 1 < image.resolution.y);
+      fit.off_m = std::max(fit.off_m, off_m(fits, image.resolution, {column, row}));
+      fit.uncertainty_rad =
+          std::max({fit.uncertainty_rad, disagreement_rad(fits, image.resolution, {column, row}),
                     gains[pixel] * turn_rad(fits, image.resolution, {column, row})});
     }
   });

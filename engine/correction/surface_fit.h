@@ -18,6 +18,8 @@ struct SurfaceFit {
   // How far the surface bends away from its plane, along the columns and along the rows: second differences
   // of range; 0 where the window reaches to one side only.
   glm::dvec2 bend_m{0.0};
+  // How the normal turns from a pixel to the next, along the columns and along the rows; 0 likewise.
+  glm::dvec3 turn_columns{0.0}, turn_rows{0.0};
   // How far the pixel lies off the surface that bends as it does at its neighbours, estimated.
   double off_m = 0.0;
 };
