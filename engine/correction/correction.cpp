@@ -169,7 +169,7 @@ void Correction::find_sensitivity() {
   });
 }
 
-// A normal stays as uncertain as it was at first, once it is no longer a guess: where no plane fits, a
+// A normal stays as uncertain as it was at first: where no plane fits, a
 // pixel's range and its normal settle on one that does, by and by, as each follows from the other.
 void Correction::fit() {
   find_sensitivity();
@@ -177,8 +177,7 @@ void Correction::fit() {
   image.normals_guessed = fits_.empty();
   std::vector<SurfaceFit> fits = fit_surfaces(image, result_.fit_pixels);
   for (std::size_t at = 0; at < fits_.size(); ++at) {
-    if (result_.passes > 2)
-      fits[at].uncertainty_rad = std::max(fits[at].uncertainty_rad, fits_[at].uncertainty_rad);
+    fits[at].uncertainty_rad = std::max(fits[at].uncertainty_rad, fits_[at].uncertainty_rad);
     fits[at].one_sided = fits[at].one_sided || fits_[at].one_sided;
   }
   fits_ = std::move(fits);

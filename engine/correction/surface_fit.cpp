@@ -12,8 +12,8 @@
 namespace pmdsim {
 namespace {
 
-// A window that fits so well, by the noise, is not doubted.
-constexpr double sure_noises = 1.5, sure_rad = 2e-5;
+// A window that fits so well, by the noise or a float's rounding, is not doubted.
+constexpr double sure_noises = 1.5, rounding = 6e-8;
 // How much better than the window about a pixel another one must fit: on a smooth, curved surface all fit
 // alike, but only that one's normal is the pixel's own.
 constexpr double better_beside = 4.0;
@@ -76,7 +76,7 @@ SurfaceFit surface_about(const Neighbourhood &around, const Plane &plane, double
 
 SurfaceFit fit_surface(const Neighbourhood &around, int n) {
   const std::optional<Plane> about = fitted_plane(around, {-n, n, -n, n});
-  if (about && (about->residual_m < sure_noises * around.noise_m() || about->uncertainty_rad < sure_rad))
+  if (about && about->residual_m < sure_noises * std::fmax(around.noise_m(), rounding * around.range_m(0, 0)))
     return surface_about(around, *about, about->uncertainty_rad);
   const std::array<std::optional<Plane>, 4> beside{
       fitted_plane(around, {-2 * n, 0, -n, n}), fitted_plane(around, {0, 2 * n, -n, n}),
@@ -170,7 +170,7 @@ std::vector<SurfaceFit> fit_surfaces(const RangeImage &image, std::uint32_t n) {
       if (std::isfinite(image.range_m[pixel])) {
         const Neighbourhood around(image, {column, row});
         fits[pixel] = fit_surface(around, static_cast<int>(n));
-        gains[pixel] = around.common_normal() ? around.gain() : 0.0;
+        gains[pixel] = around.gain() > least_common_gain ? around.gain() : 0.0;
       } else {
         fits[pixel].normal = -image.ray[pixel];
       }
