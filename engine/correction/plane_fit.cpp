@@ -81,6 +81,17 @@ glm::dvec3 Neighbourhood::direction(int column, int row) const {
   return within(frame_, image_.ray[index(column, row)]);
 }
 
+bool Neighbourhood::ends_at_border(int n) const {
+  bool is_whole = true;
+  for (int row = -n; row <= n; ++row)
+    for (int column = -n; column <= n; ++column) {
+      if (is_inside(column, row) && !has(column, row))
+        return false;
+      is_whole = is_whole && is_inside(column, row);
+    }
+  return !is_whole;
+}
+
 Point Neighbourhood::point(int column, int row) const {
   Point point{direction(column, row), range_m(column, row), glm::dvec3(0.0), glm::dvec3(0.0)};
   if (common_normal_) {

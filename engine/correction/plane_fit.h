@@ -62,16 +62,16 @@ public:
         common_normal_(image.normals_guessed ? !image.per_normal_m.empty() : gain() > least_common_gain) {}
 
   const PixelFrame &frame() const { return frame_; }
-  bool has(int column, int row) const {
+  bool is_inside(int column, int row) const {
     const glm::ivec2 p = at_ + glm::ivec2(column, row);
     return p.x >= 0 && p.y >= 0 && p.x < static_cast<int>(image_.resolution.x) &&
-           p.y < static_cast<int>(image_.resolution.y) && std::isfinite(image_.range_m[index(column, row)]);
+           p.y < static_cast<int>(image_.resolution.y);
   }
-  bool is_at_border(int n) const {
-    const glm::ivec2 end = at_ + n;
-    return at_.x < n || at_.y < n || end.x >= static_cast<int>(image_.resolution.x) ||
-           end.y >= static_cast<int>(image_.resolution.y);
+  bool has(int column, int row) const {
+    return is_inside(column, row) && std::isfinite(image_.range_m[index(column, row)]);
   }
+  // Whether all pixels up to n to each side have a range that are in the image, and some are not in it.
+  bool ends_at_border(int n) const;
   double noise_m() const { return image_.noise_m; }
   double range_m(int column, int row) const { return image_.range_m[index(column, row)]; }
   glm::dvec3 direction(int column, int row) const;

@@ -99,7 +99,7 @@ SurfaceFit fit_surface(const Neighbourhood &around, int n) {
     return surface_about(around, *about, smooth_uncertainty_rad(around, n, *about, beside));
   SurfaceFit surface =
       best ? surface_of(around, *best, bent_beside * best_rad) : SurfaceFit{-around.frame().along};
-  surface.one_sided = !best || !around.is_at_border(n); // beyond the image nothing can be
+  surface.one_sided = !best || !around.ends_at_border(n); // beyond the image nothing can be
   surface.off_m = best ? best->residual_m : 0.0;
   return surface;
 }
