@@ -168,6 +168,9 @@ std::vector<double> channel_of(const ImageArrays &read, const char *name, const 
 } // namespace
 
 MeasuredFile read_measured(const ImageRequest &request, const Sensor &sensor, std::uint32_t frame) {
+  if (request.unwrap_range_m > 0.0 && sensor.modulation_hz.size() < 2)
+    throw Error(ExitCode::usage,
+                fmt::format("--unwrap: expected at least two frequencies, sensor {} has one", sensor.name));
   const std::filesystem::path file =
       std::filesystem::is_directory(request.file) ? file_in(request, sensor, frame) : request.file;
   const std::vector<std::string> names = names_of_image(request, sensor);
