@@ -20,8 +20,8 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t most_passes = 8;
 // A pass that moves no pixel that is sure by more is the last.
 constexpr double settled_m = 2e-8, settled_noises = 1e-2;
-// An edge is where a normal moves the range by so much, and by so many times as much as in half of all
-// pixels, or where the normal is so uncertain.
+// An edge is where an uncertain normal moves the range by so much, and by so many times as much as in half of
+// all pixels, or where the normal is so uncertain.
 constexpr double least_edge_limit_m = 2e-6, edge_errors = 5.0, edge_rad = 0.1;
 // By then normals are so near that ranges change with them as they did before.
 constexpr std::uint32_t last_pass_of_sensitivity = 2;
@@ -169,8 +169,8 @@ void Correction::find_sensitivity() {
   });
 }
 
-// A normal stays as uncertain as it was at first: where no plane fits, a
-// pixel's range and its normal settle on one that does, by and by, as each follows from the other.
+// A normal stays as uncertain as it was at first: where no plane fits, a pixel's range and its normal settle
+// on one that does, by and by, as each follows from the other.
 void Correction::fit() {
   find_sensitivity();
   RangeImage image = ranges();

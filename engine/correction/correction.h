@@ -65,7 +65,7 @@ struct CorrectedImage {
 
 // `illuminators` in the world frame, at the time of the image. The pixel's measure is the mean over
 // Sensor::samples x samples points of its active area, as that of a plane through its point; 1: its centre.
-// `progress` is called with the fraction done, from several threads, one at a time; may throw to stop. Throws
+// `progress` is called with the fraction done, on the calling thread; may throw to stop. Throws
 // std::logic_error where the image is not of the sensor's size.
 CorrectedImage correct(const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                        const MeasuredImage &image, const CorrectionOptions &options,
