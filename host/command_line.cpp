@@ -43,14 +43,18 @@ void add_frames(CLI::App &command, Written &written) {
                      "A:B, frames A to B - 1 of the setup's, the first is 0 [all]");
 }
 
-void add_writing(CLI::App &command, Written &written) {
-  add_output(command, written);
+void add_formats(CLI::App &command, Written &written) {
   command
       .add_option("--format", written.formats,
                   fmt::format("what to write: exr, npz, h5, npy, ply, png, csv, separated by commas [{}]",
                               fmt::join(default_formats().at(command.get_name()), ",")))
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(format_names.begin(), format_names.end())));
+}
+
+void add_writing(CLI::App &command, Written &written) {
+  add_output(command, written);
+  add_formats(command, written);
   command
       .add_option(
           "--channels", written.channels,
@@ -149,8 +153,8 @@ std::string channel_list() {
 } // namespace
 
 const std::map<std::string, std::vector<std::string>> &default_formats() {
-  static const std::map<std::string, std::vector<std::string>> formats{{"render", {"exr", "png"}},
-                                                                       {"deform", {"exr", "png", "csv"}}};
+  static const std::map<std::string, std::vector<std::string>> formats{
+      {"render", {"exr", "png"}}, {"deform", {"exr", "png", "csv"}}, {"correct", {"exr", "png"}}};
   return formats;
 }
 
@@ -199,6 +203,14 @@ void add_commands(CLI::App &app, Written &written) {
   add_setup(*noise, written);
   add_output(*noise, written);
 
+  CLI::App *correct = app.add_subcommand(
+      "correct", "a measured phase or distance image to corrected ranges and points, for the setup's diodes");
+  add_setup(*correct, written);
+  add_correct(*correct, written.correct);
+  add_output(*correct, written);
+  add_formats(*correct, written);
+  add_samples(*correct, written);
+
   CLI::App *merge = app.add_subcommand(
       "merge", "bring the frames of several directories, as --shard leaves them, together in one");
   add_merging(*merge, written);
@@ -222,7 +234,7 @@ void add_commands(CLI::App &app, Written &written) {
   add_schema(*schema, written);
 
   CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
-  for (CLI::App *command : {fresh, render, deform, check, bench, tradeoff, noise, merge, report,
+  for (CLI::App *command : {fresh, render, deform, check, bench, tradeoff, noise, correct, merge, report,
                             import_calibration, explain, schema, devices}) {
     command->add_flag("--json", written.options.json,
                       "print one JSON object on stdout and nothing else there");

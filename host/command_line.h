@@ -2,6 +2,7 @@
 // What the command line offers: its commands and options, with their words, before anything is checked.
 
 #include "host/accuracy_options.h"
+#include "host/correct_options.h"
 #include "host/manual/command_table.h"
 #include "host/options.h"
 #include "host/report_options.h"
@@ -24,6 +25,7 @@ struct Written {
   WrittenAccuracy accuracy;
   WrittenSetups setups;
   WrittenReporting reporting;
+  WrittenCorrect correct;
   std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
   WrittenNew fresh;

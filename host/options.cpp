@@ -161,6 +161,7 @@ Options checked(Written written, const std::string &command) {
   options.command = command;
   take_setups(written.setups, options);
   check_importing(options);
+  options.correct = correct_options_of(written.correct);
   check_comparing(written);
   capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));
   options.mode_written = written.accuracy.mode.has_value();

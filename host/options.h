@@ -2,6 +2,7 @@
 // The command line, parsed and checked.
 
 #include "host/capture/capture.h"
+#include "host/correct_options.h"
 #include "host/explain_options.h"
 #include "host/new_options.h"
 #include "host/output/page/report_page.h"
@@ -40,6 +41,7 @@ struct Options {
   std::filesystem::path calibration;         // import-calibration, and the two below
   std::optional<double> pixel_pitch_m;       // along the columns, instead of the default
   std::string sensor_name;                   // instead of the file's; empty where it is not given
+  CorrectOptions correct;                    // correct
   std::string calibrated_camera;             // which of the file's cameras; empty: the first
   std::optional<NewSetup> fresh;             // new
   ExplainRequest explain;                    // explain

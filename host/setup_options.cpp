@@ -15,7 +15,7 @@ void add_setups(CLI::App &command, WrittenSetups &written, Setups setups) {
   if (setups != Setups::none_or_one)
     files->required();
   if (setups != Setups::several)
-    files->expected(setups == Setups::one ? 1 : 0, 1);
+    files->expected(setups == Setups::one ? 1 : 0, 1)->allow_extra_args(false);
   command
       .add_option(
           "--set", written.changes,
