@@ -182,6 +182,13 @@ void add_commands(CLI::App &app, Written &written) {
   add_setup(*noise, written);
   add_output(*noise, written);
 
+  CLI::App *diodes = app.add_subcommand(
+      "diodes", "tolerances of the illuminator: how far distances move where diodes are off or dead, which "
+                "diodes matter, and what boards do");
+  add_setup(*diodes, written);
+  add_output(*diodes, written);
+  add_diodes(*diodes, written.diodes);
+
   CLI::App *merge = app.add_subcommand(
       "merge", "bring the frames of several directories, as --shard leaves them, together in one");
   add_merging(*merge, written);
@@ -197,7 +204,7 @@ void add_commands(CLI::App &app, Written &written) {
 
   CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
   for (CLI::App *command :
-       {render, deform, check, bench, tradeoff, noise, merge, report, import_calibration, devices})
+       {render, deform, check, bench, tradeoff, noise, diodes, merge, report, import_calibration, devices})
     command->add_flag("--json", written.options.json,
                       "print one JSON object on stdout and nothing else there");
 }

@@ -2,6 +2,7 @@
 // What the command line offers: its commands and options, with their words, before anything is checked.
 
 #include "host/accuracy_options.h"
+#include "host/diodes_options.h"
 #include "host/options.h"
 #include "host/report_options.h"
 #include "host/setup_options.h"
@@ -23,6 +24,7 @@ struct Written {
   WrittenAccuracy accuracy;
   WrittenSetups setups;
   WrittenReporting reporting;
+  WrittenDiodes diodes;
   std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
   std::vector<std::string> formats, channels;

@@ -12,8 +12,8 @@ namespace {
 const std::map<std::string, void (*)(const Options &)> commands{
     {"render", run_render},   {"deform", run_deform},     {"check", run_check},
     {"bench", run_bench},     {"tradeoff", run_tradeoff}, {"import-calibration", run_import_calibration},
-    {"devices", run_devices}, {"noise", run_noise},       {"merge", run_merge},
-    {"report", run_report}};
+    {"devices", run_devices}, {"noise", run_noise},       {"diodes", run_diodes},
+    {"merge", run_merge},     {"report", run_report}};
 
 int report(ExitCode code, const char *message) {
   fmt::print(stderr, "pmdsim: error: {}\n", message);

@@ -161,6 +161,7 @@ Options checked(Written written, const std::string &command) {
   check_importing(options);
   check_comparing(written);
   capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));
+  options.diodes = diode_request(written.diodes);
   options.mode_written = written.accuracy.mode.has_value();
   if (written.suite_name)
     options.suite = written.suite;

@@ -11,6 +11,7 @@ void run_check(const Options &options);
 void run_bench(const Options &options);
 void run_tradeoff(const Options &options);
 void run_noise(const Options &options);
+void run_diodes(const Options &options);
 void run_merge(const Options &options);
 void run_report(const Options &options);
 void run_import_calibration(const Options &options);

@@ -1,0 +1,87 @@
+// Linear theory against random boards over the shipped scenes at the default tolerances, with the table of
+// docs/diodes.md.
+
+#include "engine/tolerance/monte_carlo.h"
+#include "tests/tolerance/views.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+// `columns` x `columns` pixels spread over the image; those that no light returns from are left out.
+LitView coarse_view(const Setup &setup, std::uint32_t columns) {
+  const Sensor &sensor = setup.start.sensors[0];
+  std::vector<std::uint32_t> pixels;
+  for (std::uint32_t i = 0; i < columns; ++i)
+    for (std::uint32_t j = 0; j < columns; ++j)
+      pixels.push_back((2 * i + 1) * sensor.resolution.y / (2 * columns) * sensor.resolution.x +
+                       (2 * j + 1) * sensor.resolution.x / (2 * columns));
+  LitView view = view_of(setup, pixels);
+  const LinearTheory theory = linear_theory(view, {});
+  std::vector<LitPoint> lit;
+  for (std::size_t i = 0; i < view.points.size(); ++i)
+    if (!std::isnan(theory.deviation_m[i]))
+      lit.push_back(view.points[i]);
+  view.points = lit;
+  return view;
+}
+
+// Found over theory; nothing where theory says that nothing changes.
+std::string ratio_text(double found, double theory) {
+  constexpr double nothing_m = 1e-9;
+  if (theory < nothing_m)
+    return fmt::format("{:>10}", "-");
+  CHECK(found / theory == Approx(1.0).epsilon(0.02));
+  return fmt::format("{:>10.4f}", found / theory);
+}
+
+void compare(const std::string &scene, std::uint32_t columns, std::uint32_t boards) {
+  INFO(scene);
+  const LitView view = coarse_view(load_setup(fmt::format("{}/{}.json", PMDSIM_SCENES, scene)), columns);
+  REQUIRE(!view.points.empty());
+  const LinearTheory theory = linear_theory(view, {});
+  std::string row = fmt::format("{:<28}{:>7}", scene, view.diodes.size()), varying_row;
+  for (std::size_t kind = 0; kind <= kind_count; ++kind) {
+    KindsOn on{};
+    for (std::size_t i = 0; i < kind_count; ++i)
+      on[i] = kind == kind_count || i == kind;
+    const BoardStatistics found = board_statistics(board_changes(view, {}, on, boards, 1));
+    INFO("kind " << kind);
+    row += ratio_text(found.rms_m, theory.board[kind].rms_m);
+    varying_row += ratio_text(found.varying_rms_m, theory.board[kind].varying_rms_m);
+  }
+  fmt::print("{}\n{:<35}{}\n", row, "  at its offset", varying_row);
+}
+
+void print_heading(std::uint32_t boards) {
+  fmt::print("standard deviation of random boards over that of linear theory, {} boards\n{:<28}{:>7}", boards,
+             "scene", "diodes");
+  for (const char *name : kind_names)
+    fmt::print("{:>10}", name);
+  fmt::print("{:>10}\n", "all");
+}
+
+} // namespace
+
+TEST_CASE("random boards have the deviations of linear theory within 2 %, in the shipped scenes") {
+  constexpr std::uint32_t boards = 20'000;
+  print_heading(boards);
+  for (const char *scene : {"paper_ring", "paper_half_ring", "bars", "room", "penumbra", "corner",
+                            "closed_box", "light", "signal", "sensor", "motion", "electronics/kinect_v2_like",
+                            "electronics/opt8241_like", "electronics/azure_kinect_like"})
+    compare(scene, 3, boards);
+}
+
+TEST_CASE("random boards have the deviations of linear theory within 2 % all over the images", "[long]") {
+  constexpr std::uint32_t boards = 40'000;
+  print_heading(boards);
+  for (const char *scene :
+       {"paper_ring", "paper_half_ring", "paper_moire", "bars", "room", "penumbra", "corner", "closed_box",
+        "light", "signal", "sensor", "motion", "electronics/kinect_v2_like", "electronics/opt8241_like",
+        "electronics/azure_kinect_like", "analytic/mixed_equal", "analytic/cancel"})
+    compare(scene, 8, boards);
+}
