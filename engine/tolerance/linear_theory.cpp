@@ -1,6 +1,7 @@
 #include "engine/tolerance/linear_theory.h"
 
 #include "engine/tolerance/diode_return.h"
+#include "engine/tolerance/few_diodes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,11 +77,15 @@ public:
     return changes;
   }
 
-  // The variance over boards by a change of the given size.
+  // The variance over boards by a change of the given size, where no other kind of error is.
   double variance(std::size_t fault, double square_m2) const {
     if (fault == dead_on_board)
       return tolerances_.dead * (1.0 - tolerances_.dead) * square_m2;
-    return tolerances_.law == ErrorLaw::uniform ? square_m2 / 3.0 : square_m2;
+    return tolerances_.error_variance() * square_m2;
+  }
+  // The same among all errors: of the mean board's light, less what dead diodes miss, one that lives is more.
+  double variance_among_all(std::size_t fault, double square_m2) const {
+    return variance(fault, square_m2) / (fault == dead_on_board ? 1.0 : 1.0 - tolerances_.dead);
   }
 
 private:
@@ -168,11 +173,10 @@ private:
         continue;
       const auto kind =
           static_cast<std::size_t>(i == dead_on_board ? Kind::dead : kind_of(static_cast<Fault>(i)));
-      const double square = by.variance(i, sums[i].mean_square()), vary = by.variance(i, sums[i].variance());
-      squares[kind] += square;
-      varying[kind] += vary;
-      own_squares += square;
-      own_varying += vary;
+      squares[kind] += by.variance(i, sums[i].mean_square());
+      varying[kind] += by.variance(i, sums[i].variance());
+      own_squares += by.variance_among_all(i, sums[i].mean_square());
+      own_varying += by.variance_among_all(i, sums[i].variance());
     }
     squares[kind_count] += own_squares;
     varying[kind_count] += own_varying;
@@ -198,7 +202,7 @@ double deviation_m(const PointChanges &changes, const Theory &by, const Image *i
         continue;
       const double offset_m = image ? image->of(m, i).mean() : 0.0,
                    change = changes.of_diode[m][i] - offset_m;
-      variance += by.variance(i, change * change);
+      variance += by.variance_among_all(i, change * change);
     }
   return std::sqrt(variance);
 }
@@ -206,7 +210,7 @@ double deviation_m(const PointChanges &changes, const Theory &by, const Image *i
 // Calls use(point's number, its changes) in the points' order; a part of them is computed at once.
 template <class Use>
 void for_each_point(const LitView &view, const Theory &theory, const std::function<void(double)> &between,
-                    double done, double share, const Use &use) {
+                    const Use &use) {
   constexpr std::size_t at_once = 64;
   std::vector<PointChanges> part(at_once);
   for (std::size_t first = 0; first < view.points.size(); first += at_once) {
@@ -215,8 +219,7 @@ void for_each_point(const LitView &view, const Theory &theory, const std::functi
                       [&](std::size_t i) { part[i] = theory.changes_of(view.points[first + i]); });
     for (std::size_t i = 0; i < count; ++i)
       use(first + i, part[i]);
-    if (between)
-      between(done + share * static_cast<double>(first + count) / static_cast<double>(view.points.size()));
+    between(static_cast<double>(first + count) / static_cast<double>(view.points.size()));
   }
 }
 
@@ -226,12 +229,26 @@ LinearTheory linear_theory(const LitView &view, const Tolerances &tolerances,
                            const std::function<void(double)> &between) {
   const Theory by(view, tolerances);
   Image image(view);
-  for_each_point(view, by, between, 0.0, 0.5,
+  const auto part_from = [&](double done) {
+    return [&between, done](double fraction) {
+      if (between)
+        between(done + 0.5 * fraction);
+    };
+  };
+  for_each_point(view, by, part_from(0.0),
                  [&](std::size_t, const PointChanges &changes) { image.add(changes); });
   LinearTheory theory = image.theory(by);
+  if (view.diodes.size() <= most_few_diodes && theory.lit_points > 0) {
+    FewDiodes few = few_diodes(view, tolerances, part_from(0.5));
+    theory.board[static_cast<std::size_t>(Kind::dead)] = few.dead;
+    theory.board.back() = few.all;
+    theory.deviation_m = std::move(few.deviation_m);
+    theory.varying_deviation_m = std::move(few.varying_deviation_m);
+    return theory;
+  }
   theory.deviation_m.resize(view.points.size());
   theory.varying_deviation_m.resize(view.points.size());
-  for_each_point(view, by, between, 0.5, 0.5, [&](std::size_t i, const PointChanges &changes) {
+  for_each_point(view, by, part_from(0.5), [&](std::size_t i, const PointChanges &changes) {
     theory.deviation_m[i] = deviation_m(changes, by, nullptr);
     theory.varying_deviation_m[i] = deviation_m(changes, by, &image);
   });

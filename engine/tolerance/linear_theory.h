@@ -29,7 +29,7 @@ struct DiodeEffect {
   double light_share = 0.0;                      // of the light of a point, mean over the points
   std::array<ImageChange, fault_count> faults{}; // of an error as large as its tolerance
   std::size_t left_dark = 0;                     // points that it alone lights: not in what is told of `dead`
-  Deviation in_board{};                          // its part in the board's: these add up as squares
+  Deviation in_board{};                          // its part in the board's: those of many add up as squares
 };
 
 // Kind::position, ..., Kind::dead, and all together.

@@ -189,16 +189,31 @@ BoardChanges varying(BoardChanges changes) {
   return changes;
 }
 
-// The root of the mean over points of the variance over boards.
-double deviation_m(const BoardChanges &changes) {
+struct Found {
+  double deviation_m, standard_error;
+};
+
+// The root of the mean over points of the variance over boards. A board's part in that variance is the mean
+// square of how far its points are off their means.
+Found found(const BoardChanges &changes) {
   Moments of_points;
+  std::vector<double> means_m;
   for (std::size_t i = 0; i < changes.points; ++i) {
     Moments of;
     for (std::size_t board = 0; board < changes.boards(); ++board)
       of.add(changes.at(board, i));
     of_points.add(of.variance());
+    means_m.push_back(of.mean());
   }
-  return std::sqrt(of_points.mean());
+  Moments of_boards;
+  for (std::size_t board = 0; board < changes.boards(); ++board) {
+    Moments of;
+    for (std::size_t i = 0; i < changes.points; ++i)
+      of.add(changes.at(board, i) - means_m[i]);
+    of_boards.add(of.mean_square());
+  }
+  const double variance = of_points.mean();
+  return {std::sqrt(variance), 0.5 * std::sqrt(of_boards.variance() / of_boards.count) / variance};
 }
 
 double most_rms_m(const BoardChanges &changes) {
@@ -263,7 +278,9 @@ std::vector<PointStatistics> point_statistics(const BoardChanges &changes) {
 
 BoardStatistics board_statistics(const BoardChanges &changes) {
   const BoardChanges at_offset = varying(changes);
-  return {deviation_m(changes), deviation_m(at_offset), most_rms_m(changes), most_rms_m(at_offset)};
+  const Found all = found(changes), vary = found(at_offset);
+  return {all.deviation_m,     vary.deviation_m,    all.standard_error,
+          vary.standard_error, most_rms_m(changes), most_rms_m(at_offset)};
 }
 
 } // namespace pmdsim

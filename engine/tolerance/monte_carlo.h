@@ -37,6 +37,9 @@ struct PointStatistics {
 // Over boards and points; as Deviation in linear_theory.h.
 struct BoardStatistics {
   double rms_m, varying_rms_m;
+  // Their standard errors, relative to them, by how much boards differ: a few diodes that are seldom dead
+  // need many more boards than what is Gaussian.
+  double standard_error, varying_standard_error;
   // So much 95 % of the boards do not exceed: the root mean square over the image of a board's change.
   double most_rms_m, most_varying_rms_m;
 };

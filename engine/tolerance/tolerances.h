@@ -40,6 +40,8 @@ struct Tolerances {
   double dead = 0.01;                          // the chance of it
   ErrorLaw law = ErrorLaw::gaussian;
 
+  // Of an error, over the square of its tolerance.
+  constexpr double error_variance() const { return law == ErrorLaw::uniform ? 1.0 / 3.0 : 1.0; }
   // By the kind's own unit.
   constexpr double of(Kind kind) const {
     return std::array{position_m, axis_rad, intensity, phase_rad, dead}[static_cast<std::size_t>(kind)];

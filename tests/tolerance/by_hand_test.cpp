@@ -90,7 +90,7 @@ TEST_CASE("even errors are smaller by the root of three than Gaussian ones of th
 }
 
 TEST_CASE("the board's variance is that of its kinds, of its diodes, and the mean of the image's") {
-  const LitView view = ring_view(7, wide_sensor());
+  const LitView view = ring_view(12, wide_sensor());
   const LinearTheory theory = linear_theory(view, defaults);
   double of_kinds = 0.0, of_diodes = 0.0, of_image = 0.0, varying = 0.0;
   for (std::size_t i = 0; i < kind_count; ++i)
@@ -102,8 +102,31 @@ TEST_CASE("the board's variance is that of its kinds, of its diodes, and the mea
     varying += std::pow(theory.varying_deviation_m[i], 2.0) / static_cast<double>(view.points.size());
   }
   const double of_board = std::pow(theory.board.back().rms_m, 2.0);
-  CHECK(of_kinds == Approx(of_board));
+  // Among dead ones a diode that lives counts for more.
+  const double of_dead = std::pow(theory.board[static_cast<std::size_t>(Kind::dead)].rms_m, 2.0);
+  CHECK(of_dead + (of_kinds - of_dead) / (1.0 - defaults.dead) == Approx(of_board));
   CHECK(of_diodes == Approx(of_board));
   CHECK(of_image == Approx(of_board));
   CHECK(varying == Approx(std::pow(theory.board.back().varying_rms_m, 2.0)));
+}
+
+TEST_CASE("of few diodes every set of dead ones is a board of its own") {
+  // Two on the axis of a wall, one 1 m farther back: a phase of a longer way by weights of 1/4 and 1/9.
+  const Sensor sensor = axial_sensor();
+  Illuminator light = diode_beside_lens(sensor, diode_at({0.0, 0.0, 0.0}));
+  light.diodes.push_back(diode_at({0.0, 0.0, -1.0}));
+  const LitView view = view_of(setup_of(wall_at(2.0), sensor, {light}), {0});
+  Tolerances tolerances;
+  tolerances.position_m = tolerances.axis_rad = tolerances.intensity = tolerances.phase_rad = 0.0;
+  tolerances.dead = 0.25;
+  const LinearTheory theory = linear_theory(view, tolerances);
+  const std::complex<double> near = 1.0 / 4.0, far = std::polar(1.0 / 9.0, wavenumber_20mhz_rad_m);
+  const double near_alone_m = metres_per_radian(view) * std::arg(near / (near + far)),
+               far_alone_m = metres_per_radian(view) * std::arg(far / (near + far));
+  // Both: 9/16, either alone: 3/16; neither is no distance. Over 15/16.
+  const double mean_m = 0.2 * (near_alone_m + far_alone_m),
+               square_m2 = 0.2 * (near_alone_m * near_alone_m + far_alone_m * far_alone_m);
+  CHECK(theory.board[static_cast<std::size_t>(Kind::dead)].rms_m ==
+        Approx(std::sqrt(square_m2 - mean_m * mean_m)).epsilon(1e-12));
+  CHECK(theory.board.back().rms_m == theory.board[static_cast<std::size_t>(Kind::dead)].rms_m);
 }

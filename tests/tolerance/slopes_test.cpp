@@ -120,8 +120,10 @@ Setup random_setup(Random &random, const Waveform &waveform, Backscatter backsca
                    {{0, 2, 1}, {0, 3, 2}}, white);
   Illuminator light = random_illuminator(random, 4, sensor.world_from_camera);
   light.modulation_phase_rad = 0.4;
-  for (Diode &diode : light.diodes)
+  for (Diode &diode : light.diodes) {
     diode.intensity_w_sr = random.uniform(0.5, 2.0);
+    diode.across = glm::normalize(glm::cross(diode.axis, random.unit_vector()));
+  }
   light.diodes[0].pattern = {};
   light.diodes[1].pattern = cosine(2.5);
   light.diodes[2].pattern = {Pattern::Kind::diagram, 0.0, random_diagram(random, true)};

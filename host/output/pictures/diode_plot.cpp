@@ -9,7 +9,7 @@ namespace pmdsim {
 namespace {
 
 constexpr double plot_side = 560.0, plot_top = 84.0;
-constexpr double least_radius = 3.0, largest_radius = 11.0;
+constexpr double least_radius = 2.5, largest_radius = 11.0;
 constexpr std::size_t named_diodes = 10;
 
 // A square of the camera's x and y about all diodes and the lens.
@@ -59,10 +59,12 @@ public:
     values_ = make_axis({0.0, most_um > 0.0 ? most_um : 1.0}, 8);
     const double left = std::round(52.0 + label_width(rows_));
     box_ = {left, plot_top, plot_side, plot_side};
+    radius_ = std::clamp(0.5 * nearest_neighbours(), least_radius, largest_radius);
   }
 
   Canvas draw() const {
-    const std::string bar_title = axis_title("part in standard deviation", "µm", values_.exponent);
+    const std::string bar_title =
+        axis_title("part in standard deviation, less the offset", "µm", values_.exponent);
     const Box bar{box_.right() + 28.0, plot_top, 18.0, plot_side};
     Canvas canvas(static_cast<int>(bar.left + std::max(100.0, text_width(bar_title)) + 20.0),
                   static_cast<int>(box_.bottom() + 64.0));
@@ -70,7 +72,8 @@ public:
         box_.left, 22.0,
         fmt::format("diodes that matter, {}, {:.6g} MHz", study_.sensor, 1e-6 * study_.modulation_hz));
     canvas.text(box_.left, 48.0,
-                "colour and area: a diode's part in what boards differ by; the ten largest have their number",
+                "colour and area: a diode's part in what boards differ by at their offset; the ten largest "
+                "have their number",
                 Anchor::left);
     canvas.grid(box_, columns_, rows_);
     draw_lens(canvas);
@@ -84,11 +87,24 @@ public:
   }
 
 private:
-  double part_um(std::size_t m) const { return 1e6 * study_.theory.diodes[m].in_board.rms_m; }
+  double part_um(std::size_t m) const { return um_per_m * study_.part_m(m); }
 
   std::pair<double, double> place(const glm::dvec3 &in_camera_m) const {
     return {box_.left + along(columns_.range, 1e3 * in_camera_m.x, box_.width),
             box_.bottom() - along(rows_.range, 1e3 * in_camera_m.y, box_.height)};
+  }
+
+  // The distance of the two diodes that are the nearest to each other, but for those at one place.
+  double nearest_neighbours() const {
+    double nearest = plot_side;
+    for (std::size_t a = 0; a < study_.diodes.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b) {
+        const auto [ax, ay] = place(study_.diodes[a].in_camera_m);
+        const auto [bx, by] = place(study_.diodes[b].in_camera_m);
+        const double distance = std::hypot(ax - bx, ay - by);
+        nearest = distance > 0.5 ? std::min(nearest, distance) : nearest;
+      }
+    return nearest;
   }
 
   void draw_lens(Canvas &canvas) const {
@@ -102,17 +118,18 @@ private:
   void draw_diode(Canvas &canvas, std::size_t m) const {
     const auto [x, y] = place(study_.diodes[m].in_camera_m);
     const double share = part_um(m) / values_.range.max;
-    disc(canvas, x, y, std::max(least_radius, largest_radius * std::sqrt(share)), viridis.at(share));
+    disc(canvas, x, y, std::max(least_radius, radius_ * std::sqrt(share)), viridis.at(share));
   }
 
   void draw_name(Canvas &canvas, std::size_t m) const {
     const auto [x, y] = place(study_.diodes[m].in_camera_m);
+    const std::string name = study_.illuminators.size() > 1 ? diode_name(study_.diodes[m])
+                                                            : std::to_string(study_.diodes[m].number);
+    const double width = text_width(name), beside = radius_ + 4.0;
     const bool is_left = x < box_.left + 0.5 * box_.width;
-    const double beside = largest_radius + 3.0;
-    canvas.text(is_left ? x - beside : x + beside, y,
-                study_.illuminators.size() > 1 ? diode_name(study_.diodes[m])
-                                               : std::to_string(study_.diodes[m].number),
-                is_left ? Anchor::right : Anchor::left);
+    const double left = is_left ? x - beside - width : x + beside;
+    canvas.fill({left - 1.0, y - 0.55 * text_size, width + 2.0, 1.1 * text_size}, white);
+    canvas.text(left, y, name, Anchor::left);
   }
 
   const DiodeStudy &study_;
@@ -120,6 +137,7 @@ private:
   Axis columns_, rows_, values_;
   std::vector<std::size_t> ranking_;
   Box box_{};
+  double radius_ = largest_radius; // of the one that matters most
 };
 
 } // namespace

@@ -1,21 +1,24 @@
 #include "host/output/tables/diode_study.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
 
 namespace pmdsim {
 
-double RandomBoards::standard_error() const { return 1.0 / std::sqrt(2.0 * (boards - 1.0)); }
+double DiodeStudy::part_m(std::size_t diode) const {
+  constexpr double rounding_m = 1e-12;
+  const Deviation &part = theory.diodes[diode].in_board;
+  return theory.board.back().varying_rms_m > rounding_m ? part.varying_rms_m : part.rms_m;
+}
 
 std::vector<std::size_t> DiodeStudy::ranking() const {
   std::vector<std::size_t> order(diodes.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, std::greater<>(),
-                           [&](std::size_t m) { return theory.diodes[m].in_board.rms_m; });
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t m) { return part_m(m); });
   return order;
 }
 

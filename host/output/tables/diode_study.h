@@ -31,9 +31,6 @@ struct RandomBoards {
   std::array<BoardStatistics, kind_count + 1> found{};
   std::vector<double> theory_m{};            // of each point, all together
   std::vector<PointStatistics> statistics{}; // likewise
-
-  // The standard error of `found`, relative to it.
-  double standard_error() const;
 };
 
 struct DiodeStudy {
@@ -49,7 +46,9 @@ struct DiodeStudy {
   LinearTheory theory{};
   RandomBoards random{};
 
-  // Diodes by their part in the board's deviation, the largest first.
+  // A diode's part in what boards differ by at the offset, or at all where nothing varies over the image.
+  double part_m(std::size_t diode) const;
+  // Diodes by that, the largest first.
   std::vector<std::size_t> ranking() const;
   // Of a value of each point the image of the sensor, row-major: each pixel has that of the pixel nearest to
   // it that was looked at, NaN where that sees nothing.

@@ -61,7 +61,9 @@ ordered_json board_rows(const DiodeStudy &study) {
                     {"monte_carlo_rms_um", um_per_m * found.rms_m},
                     {"monte_carlo_varying_rms_um", um_per_m * found.varying_rms_m},
                     {"ratio", found.rms_m / here.rms_m},
+                    {"ratio_standard_error", found.standard_error},
                     {"varying_ratio", found.varying_rms_m / here.varying_rms_m},
+                    {"varying_ratio_standard_error", found.varying_standard_error},
                     {"boards_95_percent_um", um_per_m * found.most_rms_m},
                     {"boards_95_percent_varying_um", um_per_m * found.most_varying_rms_m}});
   }
@@ -122,7 +124,6 @@ ordered_json diode_study_json(const DiodeStudy &study) {
           {"boards", study.random.boards},
           {"seed", study.random.seed},
           {"boards_pixels", study.random.points.size()},
-          {"standard_error", study.random.standard_error()},
           {"board", board_rows(study)},
           {"alike", alike_rows(study)},
           {"diodes", diode_rows(study)}};

@@ -21,9 +21,10 @@ std::string um(double length_m) {
   return fmt::format("{:.{}f}", length_um, digits);
 }
 
-std::string ratio_text(double found, double theory) {
+// With its standard error.
+std::string ratio_text(double found, double theory, double standard_error) {
   constexpr double least_m = 1e-10;
-  return theory > least_m ? fmt::format("{:.3f}", found / theory) : "-";
+  return theory > least_m ? fmt::format("{:.3f} ±{:.3f}", found / theory, standard_error) : "-";
 }
 
 std::string error_text(Fault fault, const Tolerances &tolerances) {
@@ -41,29 +42,42 @@ double middle_of(const DiodeStudy &study, std::size_t fault, double ImageChange:
   return values.empty() ? no_change : values[values.size() / 2];
 }
 
+std::size_t worst_of(const DiodeStudy &study, std::size_t fault) {
+  const auto rms_m = [&](std::size_t m) {
+    const double value_m = study.theory.diodes[m].faults[fault].rms_m;
+    return std::isnan(value_m) ? -1.0 : value_m;
+  };
+  std::size_t worst = 0;
+  for (std::size_t m = 1; m < study.diodes.size(); ++m)
+    worst = rms_m(m) > rms_m(worst) ? m : worst;
+  return worst;
+}
+
+std::string which_text(const DiodeStudy &study, std::size_t worst, double worst_m, double typical_m) {
+  constexpr double hardly = 1.01;
+  if (um(worst_m) == "0" || std::isnan(worst_m))
+    return "-";
+  return study.diodes.size() > 1 && worst_m < hardly * typical_m ? "all about alike"
+                                                                 : diode_name(study.diodes[worst]);
+}
+
 std::string one_diode_text(const DiodeStudy &study) {
-  std::string text = fmt::format("{:<26}{:>10}{:>10}  {:>10}{:>10}  {}\n", "one diode off by, µm", "typical",
-                                 "varying", " worst", "varying", "which");
+  std::string text = fmt::format("{:<25}{:>10}{:>10}  {:>10}{:>10}  {}\n", "one diode off by, µm", "typical",
+                                 "varying", "worst", "varying", "which");
   for (std::size_t i = 0; i < fault_count; ++i) {
-    const auto of = [&](std::size_t m) {
-      const double rms_m = study.theory.diodes[m].faults[i].rms_m;
-      return std::isnan(rms_m) ? -1.0 : rms_m;
-    };
-    std::size_t worst = 0;
-    for (std::size_t m = 1; m < study.diodes.size(); ++m)
-      worst = of(m) > of(worst) * (1.0 + 1e-9) ? m : worst; // of equals the first
+    const std::size_t worst = worst_of(study, i);
     const ImageChange &change = study.theory.diodes[worst].faults[i];
-    text += fmt::format(
-        "{:<25}{:>10}{:>10}  {:>10}{:>10}  {}\n", error_text(static_cast<Fault>(i), study.tolerances),
-        um(middle_of(study, i, &ImageChange::rms_m)), um(middle_of(study, i, &ImageChange::varying_rms_m)),
-        um(change.rms_m), um(change.varying_rms_m),
-        um(change.rms_m) == "0" ? "-" : diode_name(study.diodes[worst]));
+    const double typical_m = middle_of(study, i, &ImageChange::rms_m);
+    text += fmt::format("{:<25}{:>10}{:>10}  {:>10}{:>10}  {}\n",
+                        error_text(static_cast<Fault>(i), study.tolerances), um(typical_m),
+                        um(middle_of(study, i, &ImageChange::varying_rms_m)), um(change.rms_m),
+                        um(change.varying_rms_m), which_text(study, worst, change.rms_m, typical_m));
   }
   return text;
 }
 
 std::string board_text(const DiodeStudy &study) {
-  std::string text = fmt::format("{:<26}{:>10}{:>10}  {:>12}{:>10}  {:>14}{:>10}\n", "every diode off by, µm",
+  std::string text = fmt::format("{:<25}{:>10}{:>10}{:>15}{:>15}{:>16}{:>10}\n", "every diode off by, µm",
                                  "theory", "varying", "found/theory", "varying", "95 % of boards", "varying");
   for (std::size_t kind = 0; kind <= kind_count; ++kind) {
     const std::string name = kind == kind_count
@@ -72,10 +86,10 @@ std::string board_text(const DiodeStudy &study) {
                                                tolerance_text(static_cast<Kind>(kind), study.tolerances));
     const Deviation &theory = study.theory.board[kind], &here = study.random.theory[kind];
     const BoardStatistics &found = study.random.found[kind];
-    text += fmt::format("{:<25}{:>10}{:>10}  {:>12}{:>10}  {:>14}{:>10}\n", name, um(theory.rms_m),
-                        um(theory.varying_rms_m), ratio_text(found.rms_m, here.rms_m),
-                        ratio_text(found.varying_rms_m, here.varying_rms_m), um(found.most_rms_m),
-                        um(found.most_varying_rms_m));
+    text += fmt::format("{:<25}{:>10}{:>10}{:>15}{:>15}{:>16}{:>10}\n", name, um(theory.rms_m),
+                        um(theory.varying_rms_m), ratio_text(found.rms_m, here.rms_m, found.standard_error),
+                        ratio_text(found.varying_rms_m, here.varying_rms_m, found.varying_standard_error),
+                        um(found.most_rms_m), um(found.most_varying_rms_m));
   }
   return text;
 }
@@ -83,7 +97,7 @@ std::string board_text(const DiodeStudy &study) {
 std::string alike_text(const DiodeStudy &study) {
   constexpr std::size_t most_listed = 4;
   std::string text =
-      fmt::format("{:<41}{:>10}{:>10}\n", "all diodes of one illuminator alike, µm", "all", "varying");
+      fmt::format("{:<40}{:>10}{:>10}\n", "all diodes of one illuminator alike, µm", "all", "varying");
   const std::size_t listed = std::min(study.illuminators.size(), most_listed);
   for (std::size_t light = 0; light < listed; ++light)
     for (std::size_t i = 0; i < slope_count; ++i) {
@@ -99,15 +113,15 @@ std::string alike_text(const DiodeStudy &study) {
 }
 
 std::string ranking_text(const DiodeStudy &study) {
-  std::string text = fmt::format("{:<26}{:>9}{:>9}{:>9}  {:>8}{:>10}{:>10}\n", "diodes that matter most, µm",
-                                 "x, mm", "y, mm", "z, mm", "light", "on boards", "varying");
+  std::string text = fmt::format("{:<28}{:>9}{:>9}{:>9}  {:>8}{:>11}{:>10}\n", "diodes that matter most, µm",
+                                 "x, mm", "y, mm", "z, mm", "light", "in a board", "varying");
   std::vector<std::size_t> order = study.ranking();
   order.resize(std::min(order.size(), best));
   for (const std::size_t m : order) {
     const StudiedDiode &diode = study.diodes[m];
     const DiodeEffect &effect = study.theory.diodes[m];
     text +=
-        fmt::format("{:<27}{:>9.2f}{:>9.2f}{:>9.2f}  {:>6.2f} %{:>10}{:>10}\n", diode_name(diode),
+        fmt::format("{:<28}{:>9.2f}{:>9.2f}{:>9.2f}  {:>6.2f} %{:>11}{:>10}\n", diode_name(diode),
                     1e3 * diode.position_m.x, 1e3 * diode.position_m.y, 1e3 * diode.position_m.z,
                     100.0 * effect.light_share, um(effect.in_board.rms_m), um(effect.in_board.varying_rms_m));
   }
@@ -169,14 +183,16 @@ std::string diode_study_text(const DiodeStudy &study) {
       "when\nits mean over the image, the offset that a calibration removes, is taken away.\n\n"
       "{}\n"
       "Figures are standard deviations over boards whose diodes are all off at random and independently{}.\n"
-      "Found: {} boards, seed {}, {} pixels; the ratio's standard error is {:.1f} %.\n\n"
+      "Found: {} boards, seed {}, {} pixels, with standard errors. 95 % of the boards: so much their root "
+      "mean "
+      "square\nover the image does not exceed.\n\n"
       "{}\n{}\n{}{}",
       study.sensor, 1e-6 * study.modulation_hz, study.diodes.size(), study.theory.lit_points, study.grid.x,
       study.grid.y, one_diode_text(study), board_text(study),
       is_gaussian ? " (Gaussian,\nthe tolerance is the standard deviation)"
                   : " (evenly\nwithin plus and minus the tolerance)",
-      random.boards, random.seed, random.points.size(), 100.0 * random.standard_error(), alike_text(study),
-      ranking_text(study), dark_text(study), dominating_text(study));
+      random.boards, random.seed, random.points.size(), alike_text(study), ranking_text(study),
+      dark_text(study), dominating_text(study));
 }
 
 } // namespace pmdsim
