@@ -58,4 +58,14 @@ DiodeReturn diode_return(const LitView &view, const Demodulation &demodulation, 
   return result;
 }
 
+double product_change(const DiodeReturn &of, std::size_t i, const DiodeReturn &late, bool are_same,
+                      const std::complex<double> &z) {
+  const std::complex<double> by_error = of.slope[i] / z,
+                             by_phase = late.slope[static_cast<std::size_t>(Fault::phase)] / z;
+  // What the phase makes of the term that the error changes, as it does of the whole term.
+  const std::complex<double> both =
+      are_same && of.z != 0.0 ? by_error * late.slope[static_cast<std::size_t>(Fault::phase)] / of.z : 0.0;
+  return std::imag(both - by_error * by_phase);
+}
+
 } // namespace pmdsim

@@ -53,6 +53,21 @@ public:
     return changes;
   }
 
+  // The changes by two errors of two diodes at once: one of the phase and one of those before it.
+  std::vector<double> products(std::size_t point) const {
+    const std::vector<DiodeReturn> &returns = points_[point];
+    std::complex<double> all{};
+    for (const DiodeReturn &of : returns)
+      all += of.z;
+    std::vector<double> changes;
+    for (const DiodeReturn &of : returns)
+      for (std::size_t i = 0; i < product_count; ++i)
+        for (const DiodeReturn &late : returns)
+          changes.push_back(metres_per_radian_ * tolerances_.of(kind_of(static_cast<Fault>(i))) *
+                            tolerances_.phase_rad * product_change(of, i, late, &of == &late, all));
+    return changes;
+  }
+
 private:
   static bool is_dead(std::uint32_t dead, std::size_t diode) { return (dead >> diode & 1U) != 0; }
 
@@ -81,6 +96,7 @@ SetChanges mean_of(const std::vector<SetChanges> &changes, std::size_t errors) {
 // Of one point over the sets: sums of their chances, of the sets' changes, and of the errors' variances.
 struct SetSums {
   double chance = 0.0, sum = 0.0, squares = 0.0, errors = 0.0;
+  double products = 0.0; // of errors, whichever diodes are dead
 
   void add(double of_chance, const SetChanges &of, const SetChanges *offset, double variance) {
     const double change = of.of_set - (offset ? offset->of_set : 0.0);
@@ -96,8 +112,30 @@ struct SetSums {
     const double mean = sum / chance;
     return std::max(0.0, squares / chance - mean * mean);
   }
-  double all() const { return dead() + errors / chance; }
+  double all() const { return dead() + errors / chance + products; }
 };
+
+void add_products(const Points &points, double variance, std::vector<SetSums> &sums,
+                  std::vector<SetSums> &varying) {
+  std::vector<std::vector<double>> changes(sums.size());
+  std::vector<double> mean;
+  double lit = 0.0;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (sums[i].chance == 0.0)
+      continue;
+    changes[i] = points.products(i);
+    mean.resize(changes[i].size());
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      mean[k] += changes[i][k];
+    lit += 1.0;
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    for (std::size_t k = 0; k < changes[i].size(); ++k) {
+      const double change = changes[i][k], vary = change - mean[k] / lit;
+      sums[i].products += variance * variance * change * change;
+      varying[i].products += variance * variance * vary * vary;
+    }
+}
 
 double chance_of(std::uint32_t dead, std::size_t diodes, double chance) {
   double product = 1.0;
@@ -128,6 +166,7 @@ FewDiodes few_diodes(const LitView &view, const Tolerances &tolerances,
     if (between)
       between((dead + 1.0) / sets);
   }
+  add_products(points, tolerances.error_variance(), sums, varying);
   FewDiodes result{};
   std::array<double, 4> squares{};
   double lit = 0.0;

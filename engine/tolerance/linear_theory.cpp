@@ -12,8 +12,9 @@
 namespace pmdsim {
 namespace {
 
-constexpr std::size_t dead_on_board =
-    fault_count; // behind the faults: the change of a board that has dead ones
+// Behind the faults: the change of a board that has dead ones, and products of two errors of one diode.
+constexpr std::size_t dead_on_board = fault_count, first_product = dead_on_board + 1,
+                      change_count = first_product + product_count;
 
 // A change's sums over the image.
 struct Sums {
@@ -41,10 +42,10 @@ struct Sums {
 };
 
 // The changes of one point's distance by each diode, m: of errors as large as the tolerance, and what a diode
-// does that is switched off on a board that has dead ones. NaN: no light is left.
+// does that is switched off on a board that has dead ones; then products. NaN: no light is left.
 struct PointChanges {
   bool is_lit = false;
-  std::vector<std::array<double, fault_count + 1>> of_diode;
+  std::vector<std::array<double, change_count>> of_diode;
   std::vector<double> light_share;
 };
 
@@ -81,7 +82,8 @@ public:
   double variance(std::size_t fault, double square_m2) const {
     if (fault == dead_on_board)
       return tolerances_.dead * (1.0 - tolerances_.dead) * square_m2;
-    return tolerances_.error_variance() * square_m2;
+    const double of_error = tolerances_.error_variance();
+    return (fault < first_product ? of_error : of_error * of_error) * square_m2;
   }
   // The same among all errors: of the mean board's light, less what dead diodes miss, one that lives is more.
   double variance_among_all(std::size_t fault, double square_m2) const {
@@ -89,9 +91,9 @@ public:
   }
 
 private:
-  std::array<double, fault_count + 1> changes_by(const DiodeReturn &of, const std::complex<double> &z) const {
+  std::array<double, change_count> changes_by(const DiodeReturn &of, const std::complex<double> &z) const {
     const double metres_per_radian = view_.metres_per_turn() / radians_per_turn;
-    std::array<double, fault_count + 1> change;
+    std::array<double, change_count> change;
     for (std::size_t i = 0; i < slope_count; ++i)
       change[i] = metres_per_radian * size_[i] * std::imag(of.slope[i] / z);
     // The others as they are, and at the mean of boards.
@@ -102,6 +104,9 @@ private:
     };
     change[static_cast<std::size_t>(Fault::dead)] = switched_off(1.0);
     change[dead_on_board] = switched_off(1.0 - tolerances_.dead);
+    for (std::size_t i = 0; i < product_count; ++i)
+      change[first_product + i] =
+          metres_per_radian * size_[i] * tolerances_.phase_rad * product_change(of, i, of, true, z);
     return change;
   }
 
@@ -111,7 +116,7 @@ private:
   std::array<double, fault_count> size_{};
 };
 
-using DiodeSums = std::array<Sums, fault_count + 1>;
+using DiodeSums = std::array<Sums, change_count>;
 
 // What is found of the image, point by point in their order.
 class Image {
@@ -129,7 +134,7 @@ public:
     std::vector<std::array<double, slope_count>> alike(illuminators_);
     for (std::size_t m = 0; m < diodes_.size(); ++m) {
       shares_[m] += changes.light_share[m];
-      for (std::size_t i = 0; i <= fault_count; ++i)
+      for (std::size_t i = 0; i < change_count; ++i)
         diodes_[m][i].add(changes.of_diode[m][i]);
       for (std::size_t i = 0; i < slope_count; ++i)
         alike[view_.diodes[m].illuminator][i] += changes.of_diode[m][i];
@@ -168,13 +173,15 @@ private:
     effect.left_dark =
         lit_points_ - static_cast<std::size_t>(sums[static_cast<std::size_t>(Fault::dead)].count);
     double own_squares = 0.0, own_varying = 0.0;
-    for (std::size_t i = 0; i <= fault_count; ++i) {
+    for (std::size_t i = 0; i < change_count; ++i) {
       if (i == static_cast<std::size_t>(Fault::dead) || sums[i].count == 0.0)
         continue;
-      const auto kind =
-          static_cast<std::size_t>(i == dead_on_board ? Kind::dead : kind_of(static_cast<Fault>(i)));
-      squares[kind] += by.variance(i, sums[i].mean_square());
-      varying[kind] += by.variance(i, sums[i].variance());
+      if (i < first_product) { // products are of two kinds
+        const auto kind =
+            static_cast<std::size_t>(i == dead_on_board ? Kind::dead : kind_of(static_cast<Fault>(i)));
+        squares[kind] += by.variance(i, sums[i].mean_square());
+        varying[kind] += by.variance(i, sums[i].variance());
+      }
       own_squares += by.variance_among_all(i, sums[i].mean_square());
       own_varying += by.variance_among_all(i, sums[i].variance());
     }
@@ -197,7 +204,7 @@ double deviation_m(const PointChanges &changes, const Theory &by, const Image *i
     return no_change;
   double variance = 0.0;
   for (std::size_t m = 0; m < changes.of_diode.size(); ++m)
-    for (std::size_t i = 0; i <= fault_count; ++i) {
+    for (std::size_t i = 0; i < change_count; ++i) {
       if (i == static_cast<std::size_t>(Fault::dead) || std::isnan(changes.of_diode[m][i]))
         continue;
       const double offset_m = image ? image->of(m, i).mean() : 0.0,

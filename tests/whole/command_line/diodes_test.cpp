@@ -28,13 +28,13 @@ json study(const Workspace &work, const std::string &setup, const std::vector<st
   return json::parse(run.output);
 }
 
-std::string content_of(const std::string &file) {
+std::string text_of_file(const std::string &file) {
   std::ifstream in(file, std::ios::binary);
   REQUIRE(in);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::ptrdiff_t lines_of(const std::string &file) { return std::ranges::count(content_of(file), '\n'); }
+std::ptrdiff_t lines_of(const std::string &file) { return std::ranges::count(text_of_file(file), '\n'); }
 
 const std::string ring = R"("diodes": {"rings": [{"radius_m": 0.146, "count": 16}]})";
 
@@ -91,12 +91,13 @@ TEST_CASE("the same seed gives the same files, another seed other boards") {
   const Workspace work;
   const std::string setup = written_setup(work);
   study(work, setup);
-  const std::string diodes = content_of(work / "out/diodes.csv"), board = content_of(work / "out/board.csv");
+  const std::string diodes = text_of_file(work / "out/diodes.csv"),
+                    board = text_of_file(work / "out/board.csv");
   study(work, setup);
-  CHECK(content_of(work / "out/board.csv") == board);
+  CHECK(text_of_file(work / "out/board.csv") == board);
   study(work, setup, {"--seed", "1"});
-  CHECK(content_of(work / "out/board.csv") != board);
-  CHECK(content_of(work / "out/diodes.csv") == diodes);
+  CHECK(text_of_file(work / "out/board.csv") != board);
+  CHECK(text_of_file(work / "out/diodes.csv") == diodes);
 }
 
 TEST_CASE("one diode, light in the lens and several illuminators are studied, too") {
