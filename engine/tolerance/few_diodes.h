@@ -1,7 +1,8 @@
 #pragma once
 // Boards of few diodes. A dead one of three leaves so much less light that the others' errors count for more,
 // and elsewhere; what they do is no longer the sum of what each does alone. So every set of dead diodes is a
-// board of its own here, exactly, and the errors of those that live are linear about it.
+// board of its own here, exactly, and the errors of those that live are linear about it. Products of errors
+// are of all pairs of diodes.
 
 #include "engine/tolerance/linear_theory.h"
 

@@ -1,7 +1,7 @@
 #pragma once
-// How far distances move by faults of diodes, to first order; that a diode is dead, exactly. Formulas:
-// docs/diodes.md, "The formulas". A change `at an offset` is what is left of it when its mean over the image,
-// which a calibration takes away, is subtracted.
+// How far distances move by faults of diodes, to first order, with the products of phase errors and others;
+// that a diode is dead, exactly. Formulas: docs/diodes.md, "The formulas". A change `at an offset` is what is
+// left of it when its mean over the image, which a calibration takes away, is subtracted.
 
 #include "engine/tolerance/lit_view.h"
 #include "engine/tolerance/tolerances.h"

@@ -1,3 +1,4 @@
+#include "engine/model/warning.h"
 #include "host/capture/capture.h"
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
@@ -58,8 +59,9 @@ std::vector<std::string> write_files(OutputSet &files, const DiodeStudy &study) 
 void run_diodes(const Options &options) {
   const Setup setup = requested_setup(options.capture);
   if (setup.bounces.any())
-    fmt::print(stderr, "pmdsim: warning: light that bounces is left out, as errors of diodes are studied by "
-                       "the light that comes directly\n");
+    warn(
+        {std::string(warning_code("bounces-left-out")), setup.file.string() + ": /bounces",
+         "light that bounces is left out, as errors of diodes are studied by the light that comes directly"});
   OutputSet files(options.capture.output_directory); // first, so that nothing is studied in vain
   const DiodeStudy study = studied(setup, options.diodes);
   const std::vector<std::string> paths = write_files(files, study);

@@ -87,19 +87,21 @@ void print_heading(std::uint32_t boards) {
 
 } // namespace
 
-TEST_CASE("random boards have the deviations of linear theory within 2 %, in the shipped scenes") {
+TEST_CASE("random boards have the deviations of linear theory within 2 %, in shipped scenes") {
   constexpr std::uint32_t boards = 20'000;
   print_heading(boards);
-  for (const char *scene : {"paper_ring", "paper_half_ring", "bars", "room", "penumbra", "corner",
-                            "closed_box", "light", "signal", "sensor", "motion", "electronics/kinect_v2_like",
-                            "electronics/opt8241_like", "electronics/azure_kinect_like"})
+  for (const char *scene :
+       {"paper_half_ring", "penumbra", "corner", "light", "signal", "electronics/kinect_v2_like",
+        "electronics/opt8241_like", "electronics/azure_kinect_like"})
     compare(scene, 3, boards);
 }
 
-TEST_CASE("random boards have the deviations of linear theory within 2 % all over the images", "[long]") {
-  constexpr std::uint32_t boards = 40'000;
+TEST_CASE("random boards have the deviations of linear theory within 2 %, in all shipped scenes", "[long]") {
+  constexpr std::uint32_t boards = 20'000;
   print_heading(boards);
   for (const char *scene :
-       {"paper_ring", "paper_half_ring", "paper_moire", "bars", "room", "penumbra", "corner", "closed_box"})
-    compare(scene, 8, boards);
+       {"paper_ring", "paper_half_ring", "paper_moire", "bars", "room", "penumbra", "corner", "closed_box",
+        "light", "signal", "sensor", "motion", "electronics/kinect_v2_like", "electronics/opt8241_like",
+        "electronics/azure_kinect_like"})
+    compare(scene, 4, boards);
 }

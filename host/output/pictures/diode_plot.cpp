@@ -1,9 +1,12 @@
 #include "host/output/pictures/plots.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace pmdsim {
 namespace {
@@ -49,6 +52,10 @@ void colour_bar(Canvas &canvas, const Box &box, const Axis &axis, const std::str
   canvas.text(box.left, box.top - 16.0, title, Anchor::left);
 }
 
+bool overlap(const Box &a, const Box &b) {
+  return a.left < b.right() && b.left < a.right() && a.top < b.bottom() && b.top < a.bottom();
+}
+
 class DiodePlot {
 public:
   explicit DiodePlot(const DiodeStudy &study)
@@ -79,8 +86,9 @@ public:
     draw_lens(canvas);
     for (auto m = ranking_.rbegin(); m != ranking_.rend(); ++m) // the largest last, on top
       draw_diode(canvas, *m);
+    std::vector<Box> taken;
     for (std::size_t i = 0; i < std::min(named_diodes, ranking_.size()); ++i)
-      draw_name(canvas, ranking_[i]);
+      draw_name(canvas, ranking_[i], taken);
     canvas.frame(box_, columns_, rows_, "x in the sensor's frame (mm)", "y in the sensor's frame (mm)");
     colour_bar(canvas, bar, values_, bar_title);
     return canvas;
@@ -121,15 +129,26 @@ private:
     disc(canvas, x, y, std::max(least_radius, radius_ * std::sqrt(share)), viridis.at(share));
   }
 
-  void draw_name(Canvas &canvas, std::size_t m) const {
+  // Beside the diode, away from the middle if there is room; left out where a larger one's name is in the
+  // way.
+  void draw_name(Canvas &canvas, std::size_t m, std::vector<Box> &taken) const {
     const auto [x, y] = place(study_.diodes[m].in_camera_m);
     const std::string name = study_.illuminators.size() > 1 ? diode_name(study_.diodes[m])
                                                             : std::to_string(study_.diodes[m].number);
     const double width = text_width(name), beside = radius_ + 4.0;
-    const bool is_left = x < box_.left + 0.5 * box_.width;
-    const double left = is_left ? x - beside - width : x + beside;
-    canvas.fill({left - 1.0, y - 0.55 * text_size, width + 2.0, 1.1 * text_size}, white);
-    canvas.text(left, y, name, Anchor::left);
+    std::array lefts{x + beside, x - beside - width};
+    if (x < box_.left + 0.5 * box_.width)
+      std::swap(lefts[0], lefts[1]);
+    for (const double left : lefts) {
+      const Box box{left - 1.0, y - 0.55 * text_size, width + 2.0, 1.1 * text_size};
+      const bool is_inside = box.left > box_.left && box.right() < box_.right();
+      if (!is_inside || std::ranges::any_of(taken, [&](const Box &other) { return overlap(box, other); }))
+        continue;
+      canvas.fill(box, white);
+      canvas.text(left, y, name, Anchor::left);
+      taken.push_back(box);
+      return;
+    }
   }
 
   const DiodeStudy &study_;

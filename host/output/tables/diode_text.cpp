@@ -183,9 +183,9 @@ std::string diode_study_text(const DiodeStudy &study) {
       "when\nits mean over the image, the offset that a calibration removes, is taken away.\n\n"
       "{}\n"
       "Figures are standard deviations over boards whose diodes are all off at random and independently{}.\n"
-      "Found: {} boards, seed {}, {} pixels, with standard errors. 95 % of the boards: so much their root "
-      "mean "
-      "square\nover the image does not exceed.\n\n"
+      "Found: {} boards, seed {}, at {} of the pixels, with standard errors. 95 % of these boards: so much "
+      "their "
+      "root\nmean square over these pixels does not exceed.\n\n"
       "{}\n{}\n{}{}",
       study.sensor, 1e-6 * study.modulation_hz, study.diodes.size(), study.theory.lit_points, study.grid.x,
       study.grid.y, one_diode_text(study), board_text(study),
