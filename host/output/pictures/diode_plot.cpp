@@ -52,10 +52,6 @@ void colour_bar(Canvas &canvas, const Box &box, const Axis &axis, const std::str
   canvas.text(box.left, box.top - 16.0, title, Anchor::left);
 }
 
-bool overlap(const Box &a, const Box &b) {
-  return a.left < b.right() && b.left < a.right() && a.top < b.bottom() && b.top < a.bottom();
-}
-
 class DiodePlot {
 public:
   explicit DiodePlot(const DiodeStudy &study)
