@@ -74,15 +74,19 @@ public:
     canvas.title(
         box_.left, 22.0,
         fmt::format("diodes that matter, {}, {:.6g} MHz", study_.sensor, 1e-6 * study_.modulation_hz));
-    canvas.text(box_.left, 48.0,
-                "colour and area: a diode's part in what boards differ by at their offset; the ten largest "
-                "have their number",
-                Anchor::left);
+    canvas.text(
+        box_.left, 48.0,
+        "colour and area: a diode's part in what boards differ by at their offset; numbers: the largest",
+        Anchor::left);
     canvas.grid(box_, columns_, rows_);
     draw_lens(canvas);
     for (auto m = ranking_.rbegin(); m != ranking_.rend(); ++m) // the largest last, on top
       draw_diode(canvas, *m);
     std::vector<Box> taken;
+    for (const StudiedDiode &diode : study_.diodes) {
+      const auto [x, y] = place(diode.in_camera_m);
+      taken.push_back({x - radius_, y - radius_, 2.0 * radius_, 2.0 * radius_});
+    }
     for (std::size_t i = 0; i < std::min(named_diodes, ranking_.size()); ++i)
       draw_name(canvas, ranking_[i], taken);
     canvas.frame(box_, columns_, rows_, "x in the sensor's frame (mm)", "y in the sensor's frame (mm)");
