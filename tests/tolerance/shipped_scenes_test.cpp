@@ -100,7 +100,7 @@ TEST_CASE("random boards have the deviations of linear theory within 2 %, in all
   constexpr std::uint32_t boards = 20'000;
   print_heading(boards);
   for (const char *scene :
-       {"paper_ring", "paper_half_ring", "paper_moire", "bars", "room", "penumbra", "corner", "closed_box",
+       {"paper_ring", "paper_half_ring", "bars", "room", "penumbra", "corner", "closed_box",
         "light", "signal", "sensor", "motion", "electronics/kinect_v2_like", "electronics/opt8241_like",
         "electronics/azure_kinect_like"})
     compare(scene, 4, boards);
