@@ -211,6 +211,13 @@ void add_commands(CLI::App &app, Written &written) {
   add_formats(*correct, written);
   add_samples(*correct, written);
 
+  CLI::App *diodes = app.add_subcommand(
+      "diodes", "tolerances of the illuminator: how far distances move where diodes are off or dead, which "
+                "diodes matter, and what boards do");
+  add_setup(*diodes, written);
+  add_output(*diodes, written);
+  add_diodes(*diodes, written.diodes);
+
   CLI::App *merge = app.add_subcommand(
       "merge", "bring the frames of several directories, as --shard leaves them, together in one");
   add_merging(*merge, written);
@@ -234,8 +241,8 @@ void add_commands(CLI::App &app, Written &written) {
   add_schema(*schema, written);
 
   CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
-  for (CLI::App *command : {fresh, render, deform, check, bench, tradeoff, noise, correct, merge, report,
-                            import_calibration, explain, schema, devices}) {
+  for (CLI::App *command : {fresh, render, deform, check, bench, tradeoff, noise, correct, diodes, merge,
+                            report, import_calibration, explain, schema, devices}) {
     command->add_flag("--json", written.options.json,
                       "print one JSON object on stdout and nothing else there");
     const std::string more = command->get_footer();

@@ -3,6 +3,7 @@
 
 #include "host/accuracy_options.h"
 #include "host/correct_options.h"
+#include "host/diodes_options.h"
 #include "host/manual/command_table.h"
 #include "host/options.h"
 #include "host/report_options.h"
@@ -26,6 +27,7 @@ struct Written {
   WrittenSetups setups;
   WrittenReporting reporting;
   WrittenCorrect correct;
+  WrittenDiodes diodes;
   std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
   WrittenNew fresh;

@@ -14,7 +14,7 @@ const std::map<std::string, void (*)(const Options &)> commands{
     {"bench", run_bench},     {"tradeoff", run_tradeoff}, {"import-calibration", run_import_calibration},
     {"devices", run_devices}, {"noise", run_noise},       {"merge", run_merge},
     {"report", run_report},   {"new", run_new},           {"schema", run_schema},
-    {"explain", run_explain}, {"correct", run_correct}};
+    {"explain", run_explain}, {"correct", run_correct},   {"diodes", run_diodes}};
 
 int report(ExitCode code, const char *message) {
   fmt::print(stderr, "pmdsim: error: {}\n", message);

@@ -164,6 +164,7 @@ Options checked(Written written, const std::string &command) {
   options.correct = correct_options_of(written.correct);
   check_comparing(written);
   capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));
+  options.diodes = diode_request(written.diodes);
   options.mode_written = written.accuracy.mode.has_value();
   if (command == "new")
     options.fresh = new_setup_of(written.fresh);

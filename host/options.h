@@ -6,6 +6,7 @@
 #include "host/explain_options.h"
 #include "host/new_options.h"
 #include "host/output/page/report_page.h"
+#include "host/tolerance/diode_study.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -36,6 +37,7 @@ struct Options {
   CaptureRequest capture;
   bool mode_written = false;                 // bench: one mode instead of all
   std::optional<SuiteOptions> suite;         // bench --suite
+  DiodeRequest diodes;                       // diodes
   std::vector<std::filesystem::path> merged; // merge; into capture's output directory, if there is one
   std::optional<ReportRequest> report;       // report; render and deform: --report, then without directory
   std::filesystem::path calibration;         // import-calibration, and the two below

@@ -66,6 +66,8 @@ public:
         frame_(dark_frame(with_pixels(sensor, options.pixels), options.bounces)) {
     if (options.bounces.any())
       tracer_.emplace(scene, caster_.triangles(), lights_, options.shadows, options.bounces);
+    if (options.keep_points)
+      frame_.sample_points.resize(frame_.sample_triangle_id.size());
     if (options.shadows == Shadows::off)
       return;
     shadows_.emplace(caster_.triangles(), caster_.discs(), lights_,
@@ -137,6 +139,8 @@ private:
     const DiodeSet reached = shadows_ ? shadows_->reached(point, hit->id) : every_diode_;
     sums.reached += reached.count();
     keep_visibility(index, reached);
+    if (!frame_.sample_points.empty())
+      frame_.sample_points[index] = point;
     const auto paths = light_paths(point, lights_, reached, backscatter_);
     for (ReturnSum &sum : sums.returns)
       sum.add(paths);

@@ -8,9 +8,11 @@
 #include "engine/model/measurement.h"
 #include "engine/model/scene.h"
 #include "engine/model/sensor.h"
+#include "engine/reference/surface_point.h"
 
 #include <complex>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace pmdsim::reference {
@@ -43,6 +45,8 @@ struct Frame {
   std::vector<std::uint32_t> triangle_id, object_id; // a disc's id is as Scene::surface_of takes it
   std::vector<std::uint32_t> sample_triangle_id;     // (S*rows) x (S*columns)
   std::vector<std::uint32_t> sample_visibility;      // as in Measurement, only filled on request
+  // Beside sample_triangle_id, nothing where nothing is hit; only filled on request.
+  std::vector<std::optional<SurfacePoint>> sample_points;
   double frame_ms = 0.0;
 };
 
@@ -56,6 +60,7 @@ struct Options {
   Bounces bounces{};
   // Of light that bounces to a pixel, spread over its samples; rounded up to a multiple of 16; 0: 1024.
   std::uint32_t paths = 0;
+  bool keep_points = false; // fill Frame::sample_points
 };
 
 // Samples whose place on the chip no ray reaches see nothing. `progress` is called with the fraction done,

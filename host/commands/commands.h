@@ -12,6 +12,7 @@ void run_bench(const Options &options);
 void run_tradeoff(const Options &options);
 void run_noise(const Options &options);
 void run_correct(const Options &options);
+void run_diodes(const Options &options);
 void run_merge(const Options &options);
 void run_report(const Options &options);
 void run_import_calibration(const Options &options);

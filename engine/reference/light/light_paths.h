@@ -4,6 +4,7 @@
 
 #include "engine/model/illuminator.h"
 #include "engine/model/scene.h"
+#include "engine/reference/surface_point.h"
 
 #include <bit>
 #include <cstddef>
@@ -34,14 +35,6 @@ public:
 
 private:
   std::vector<std::uint32_t> words_;
-};
-
-// A point that the lens sees, or that another surface sees, camera frame.
-struct SurfacePoint {
-  glm::dvec3 position_m;
-  glm::dvec3 normal; // unit length, turned to who sees it
-  double reflectivity;
-  double lens_gain; // the part of its light that vignetting leaves
 };
 
 struct LightPath {

@@ -26,6 +26,10 @@ struct Box {
   double bottom() const { return top + height; }
 };
 
+inline bool overlap(const Box &a, const Box &b) {
+  return a.left < b.right() && b.left < a.right() && a.top < b.bottom() && b.top < a.bottom();
+}
+
 // Where a label's text stands relative to its point.
 enum class Anchor { left, centre, right };
 

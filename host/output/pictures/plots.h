@@ -2,6 +2,7 @@
 // Curves and points over two axes.
 
 #include "host/output/pictures/canvas.h"
+#include "host/output/tables/diode_study.h"
 #include "host/output/tables/noise.h"
 #include "host/output/tables/tradeoff.h"
 
@@ -22,5 +23,8 @@ Canvas draw_tradeoff(const Tradeoff &tradeoff);
 // Noise of distances against distance, and variance against mean of a tap: predicted lines, dots as found.
 Canvas draw_precision(const NoiseStudy &study);
 Canvas draw_transfer(const NoiseStudy &study);
+
+// The diodes at their places, by their part in what boards differ by.
+Canvas draw_diodes(const DiodeStudy &study);
 
 } // namespace pmdsim

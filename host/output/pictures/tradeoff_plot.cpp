@@ -92,10 +92,6 @@ void draw_marker(Canvas &canvas, double x, double y, const Colour &colour, bool 
   cairo_stroke(context);
 }
 
-bool overlap(const Box &a, const Box &b) {
-  return a.left < b.right() && b.left < a.right() && a.top < b.bottom() && b.top < a.bottom();
-}
-
 // Where a label may stand beside its marker, best first: fronts fall to the right.
 constexpr std::array<std::pair<double, double>, 8> directions{
     {{1.0, -1.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, -1.0}, {-1.0, 1.0}, {0.0, 1.0}, {-1.0, 0.0}, {-1.0, -1.0}}};

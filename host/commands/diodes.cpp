@@ -1,0 +1,77 @@
+#include "engine/model/warning.h"
+#include "host/capture/capture.h"
+#include "host/commands/commands.h"
+#include "host/output/files/manifest.h"
+#include "host/output/files/output_set.h"
+#include "host/output/pictures/plots.h"
+#include "host/output/pictures/preview.h"
+#include "host/output/tables/diode_tables.h"
+#include "host/report/report.h"
+#include "host/tolerance/diode_study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace pmdsim {
+namespace {
+
+DiodeStudy studied(const Setup &setup, const DiodeRequest &request) {
+  constexpr double parts = 3.0;
+  ProgressBar bar(parts);
+  std::string step;
+  return study_diodes(setup, request, [&](const char *what, double fraction) {
+    throw_if_interrupted();
+    if (step != what)
+      bar.begin(step = what, 1.0);
+    bar.update(fraction);
+  });
+}
+
+Canvas draw_map(const DiodeStudy &study, const std::vector<double> &values_m, const std::string &what) {
+  return draw_preview(study.image_of(values_m, 1e3), study.resolution,
+                      {"standard deviation of distance", ColourScale::sequential}, "mm",
+                      fmt::format("{}, {}, {}", what, study.sensor, frequency_text(study.modulation_hz)));
+}
+
+std::vector<std::string> write_files(OutputSet &files, const DiodeStudy &study) {
+  const auto add = [&](const std::string &name, const auto &write) {
+    throw_if_interrupted();
+    files.add(name, write);
+  };
+  add("diodes.csv", [&](OutputFile &file) { file.write(diodes_csv(study)); });
+  add("board.csv", [&](OutputFile &file) { file.write(board_csv(study)); });
+  add("alike.csv", [&](OutputFile &file) { file.write(alike_csv(study)); });
+  add("pixels.csv", [&](OutputFile &file) { file.write(pixels_csv(study)); });
+  add("diodes.png", [&](OutputFile &file) { draw_diodes(study).write_png(file); });
+  add("tolerance_map.png", [&](OutputFile &file) {
+    draw_map(study, study.theory.deviation_m, "what boards differ by").write_png(file);
+  });
+  add("tolerance_map_varying.png", [&](OutputFile &file) {
+    draw_map(study, study.theory.varying_deviation_m, "the same, less each board's offset").write_png(file);
+  });
+  throw_if_interrupted();
+  files.publish();
+  return files.paths();
+}
+
+} // namespace
+
+void run_diodes(const Options &options) {
+  const Setup setup = requested_setup(options.capture);
+  if (setup.bounces.any())
+    warn(
+        {std::string(warning_code("bounces-left-out")), setup.file.string() + ": /bounces",
+         "light that bounces is left out, as errors of diodes are studied by the light that comes directly"});
+  OutputSet files(options.capture.output_directory); // first, so that nothing is studied in vain
+  const DiodeStudy study = studied(setup, options.diodes);
+  const std::vector<std::string> paths = write_files(files, study);
+  if (options.json) {
+    nlohmann::ordered_json json = diode_study_json(study);
+    json["outputs"] = paths;
+    print(json_text(json));
+  } else {
+    print(fmt::format("{}\nwritten:\n  {}\n", diode_study_text(study), fmt::join(paths, "\n  ")));
+  }
+}
+
+} // namespace pmdsim
