@@ -94,7 +94,8 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
 struct TakenFrame {
   Sensor sensor; // where it was when the frame began
   Measurement measurement;
-  Mode mode = Mode::exact; // that it was taken in
+  Mode mode = Mode::exact;         // that it was taken in
+  std::vector<Warning> warnings{}; // about it; the place of each is the sensor
 };
 
 // Takes frames of a setup, which must outlive it, on one device.

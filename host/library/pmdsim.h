@@ -145,7 +145,8 @@ typedef struct pmdsim_render_options {
   const char *samples;        /* S of S x S samples a pixel, "1" to "16", or "auto"; NULL: the setup's */
   const char *channels; /* names, separated by commas; NULL: all. What only others need is not computed */
   uint32_t paths;       /* of the reference, for each pixel where light bounces; 0: it chooses */
-  int strict;           /* a frame some of whose pixels may be off by more is PMDSIM_BAD_ACCURACY */
+  int strict;           /* a frame some of whose pixels may be off by more is PMDSIM_BAD_ACCURACY; other
+                         * warnings of the setup and of the frame are PMDSIM_BAD_INPUT */
 } pmdsim_render_options;
 
 /* Measures frame `frame` of the sensor with the index `sensor`, both from 0; the same bits as the program

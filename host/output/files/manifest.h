@@ -42,7 +42,8 @@ struct FrameRecord {
   AccuracyReport accuracy;
   std::optional<BouncesReport> bounces{}; // nothing without
   std::vector<NamedFile> outputs{};
-  nlohmann::ordered_json told{}; // what the command tells of it beyond that
+  nlohmann::ordered_json told{};   // what the command tells of it beyond that
+  std::vector<Warning> warnings{}; // about it; the place of each is the sensor
 };
 
 // What a run is, its frames aside: all that decides what they hold.
@@ -55,6 +56,7 @@ struct RunHead {
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array(); // the files that went into it
   std::vector<std::string> formats{};
   std::vector<std::string> channels{}; // asked for; none: all
+  std::vector<Warning> warnings{};     // about the setup
 };
 
 // As the command line has them: "exact", "reduced", "auto"; "fp32", "fp64".
@@ -105,6 +107,8 @@ nlohmann::ordered_json bounces_json(const BouncesReport &report);
 
 // code, place, text.
 nlohmann::ordered_json warning_json(const Warning &warning);
+// Throws json::exception where it is none.
+Warning warning_of(const nlohmann::ordered_json &json);
 
 // index, name, kind, driver, usable, lacks.
 nlohmann::ordered_json device_json(const DeviceInfo &device);
@@ -113,7 +117,7 @@ nlohmann::ordered_json device_json(const DeviceInfo &device);
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);
 
 // What stands in a manifest before its frames: program, version, command, device, driver, mode and errors
-// that were asked for, formats, inputs, setup, points.
+// that were asked for, formats, inputs, setup, points, warnings of the setup.
 nlohmann::ordered_json head_json(const RunHead &run);
 // A frame as it stands there: what is the same whenever and wherever the run is made, so without times.
 nlohmann::ordered_json frame_json(const FrameRecord &record);

@@ -87,8 +87,8 @@ def render(
     paths : int, optional
         Of the reference, for each pixel where light bounces.
     strict : bool, optional
-        A frame some of whose pixels may be off by more than was asked for is an error; else it warns and has the
-        channel `error_bound_m`.
+        Every warning of the setup and of the frame is an error: InputError, or AccuracyError where pixels may be off
+        by more than was asked for, which else have the channel `error_bound_m`.
     set : dict, optional
         Changes of the setup, as Simulator.set() takes them: {"sensors/0/focal_length_m": 0.02}.
     scene : pmdsim.Scene, optional
