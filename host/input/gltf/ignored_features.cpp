@@ -287,18 +287,19 @@ std::vector<Warning> unused_carriers(const IgnoredFeatures &features, const std:
   if (const auto &cameras = features.cameras; !cameras.empty() && std::ranges::none_of(cameras, is_used))
     warnings.push_back(input_warning(
         warning_code("gltf-camera"), cameras.front().place,
-        fmt::format("the file has {} camera{}, and no pose names a node of one: sensors and their lenses come "
-                    "from the setup; a sensor is at this camera by the pose {}",
-                    cameras.size(), cameras.size() == 1 ? "" : "s", pose_of(cameras.front()))));
+        fmt::format(
+            "the file has {} camera{}, and no pose names a node of one: sensors and their lenses come "
+            "from the setup; a sensor is at this camera by the pose {}",
+            cameras.size(), cameras.size() == 1 ? "" : "s", pose_of(cameras.front()))));
   std::vector<GltfCarrier> lights = features.lights;
   std::erase_if(lights, is_used);
   if (!lights.empty())
     warnings.push_back(input_warning(
         warning_code("gltf-lights"), lights.front().place,
-        fmt::format("{} of {} lights {} ignored: light comes from the setup's illuminators alone; one is at "
+        fmt::format("{} of {} light{} {} ignored: light comes from the setup's illuminators alone; one is at "
                     "this light by the pose {}",
-                    lights.size(), features.lights.size(), lights.size() == 1 ? "is" : "are",
-                    pose_of(lights.front()))));
+                    lights.size(), features.lights.size(), features.lights.size() == 1 ? "" : "s",
+                    lights.size() == 1 ? "is" : "are", pose_of(lights.front()))));
   return warnings;
 }
 

@@ -264,7 +264,7 @@ TEST_CASE("Cameras and lights are told of where no pose is at their nodes") {
   CHECK_THAT(warnings[0].place, Catch::EndsWith("scene.gltf: /nodes/0"));
   CHECK_THAT(warnings[0].text, Catch::EndsWith("by the pose {\"node\": \"object\"}"));
   CHECK(warnings[1].code == "gltf-lights");
-  CHECK_THAT(warnings[1].text, Catch::StartsWith("1 of 1 lights is ignored"));
+  CHECK_THAT(warnings[1].text, Catch::StartsWith("1 of 1 light is ignored"));
 }
 
 TEST_CASE("Parts of odd types are not judged") {
