@@ -160,7 +160,7 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
                          const std::string &label) {
   bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
   TakenFrame taken = exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
-  taken.warnings = frame_warnings(taken.sensor, taken.measurement, accuracy_, setup_.bounces);
+  taken.warnings = frame_warnings(setup_, taken.sensor, taken.measurement, accuracy_);
   if (accuracy_.strict)
     refuse_warnings(of_frame(taken.warnings, at.frame));
   for (const Warning &warning : taken.warnings)

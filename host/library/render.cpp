@@ -108,7 +108,7 @@ FrameRequest request_of(const pmdsim_render_options *given, bool on_reference) {
 
 // The place of each is the sensor, or the setup.
 std::vector<Warning> warnings_of(const TakenFrame &taken, const Setup &setup, const Accuracy &asked) {
-  std::vector<Warning> warnings = frame_warnings(taken.sensor, taken.measurement, asked, setup.bounces);
+  std::vector<Warning> warnings = frame_warnings(setup, taken.sensor, taken.measurement, asked);
   if (taken.mode == Mode::exact && asked.mode != Mode::exact)
     warnings.insert(warnings.begin(), tap_by_tap_warning(setup));
   return warnings;

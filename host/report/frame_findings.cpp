@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <span>
+#include <string_view>
 
 namespace pmdsim {
 namespace {
@@ -15,6 +16,10 @@ constexpr double largest_claim = 2.0;            // over what was asked for
 
 bool has_any_above_zero(std::span<const float> values) {
   return std::ranges::any_of(values, [](float value) { return value > 0.0f; });
+}
+
+bool warns_of(const Setup &setup, std::string_view code) {
+  return std::ranges::find(setup.warnings, code, &Warning::code) != setup.warnings.end();
 }
 
 // Of the diodes' light, noise aside. Nothing where no channel tells.
@@ -27,14 +32,16 @@ std::optional<bool> has_light(const Measurement &frame) {
   return has_any_above_zero(frame.returns.front().amplitude);
 }
 
-void add_view(const Sensor &sensor, const Measurement &frame, std::vector<Warning> &warnings) {
+void add_view(const Setup &setup, const Sensor &sensor, const Measurement &frame,
+              std::vector<Warning> &warnings) {
   if (frame.coverage.empty())
     return;
-  if (!has_any_above_zero(frame.coverage))
+  const bool sees = has_any_above_zero(frame.coverage);
+  if (!sees && !warns_of(setup, "empty-scene"))
     warnings.push_back({warning_code("nothing-in-view"), place_of(sensor),
                         "no sample hits the scene: turn or move the sensor by its pose; or give the scene's "
                         "materials doubleSided, where the lens is behind them"});
-  else if (has_light(frame) == false)
+  else if (sees && has_light(frame) == false && !warns_of(setup, "diodes-turned-away"))
     warnings.push_back(
         {warning_code("all-dark"), place_of(sensor),
          "it sees the scene, but no diode's light reaches what it sees: turn or move the "
@@ -71,15 +78,15 @@ void add_claim(const Sensor &sensor, std::optional<double> claimed_m, double ask
 
 } // namespace
 
-std::vector<Warning> frame_warnings(const Sensor &sensor, const Measurement &measurement,
-                                    const Accuracy &asked, const Bounces &bounces) {
+std::vector<Warning> frame_warnings(const Setup &setup, const Sensor &sensor, const Measurement &measurement,
+                                    const Accuracy &asked) {
   std::vector<Warning> warnings;
-  add_view(sensor, measurement, warnings);
+  add_view(setup, sensor, measurement, warnings);
   add_saturated(sensor, measurement, warnings);
   if (asked.mode != Mode::exact)
     add_claim(sensor, measurement.accuracy.claimed_m, asked.max_error_m, "--max-error", warnings);
   if (measurement.bounces)
-    add_claim(sensor, measurement.bounces->claimed_m, bounces.max_error_m, "bounce_error", warnings);
+    add_claim(sensor, measurement.bounces->claimed_m, setup.bounces.max_error_m, "bounce_error", warnings);
   if (const auto unpromised = unpromised_warning(measurement.accuracy, asked.max_error_m, sensor))
     warnings.push_back(*unpromised);
   return warnings;

@@ -48,25 +48,24 @@ std::vector<Body> bodies_of(const Scene &scene) {
 }
 
 // Directions in which no edge of what people model lies.
-const std::array<glm::dvec3, 3> ray_directions{glm::normalize(glm::dvec3(0.5377, 0.8339, 0.1251)),
-                                               glm::normalize(glm::dvec3(-0.7263, 0.2137, 0.6531)),
-                                               glm::normalize(glm::dvec3(0.2891, -0.4517, -0.8441))};
+const std::array<glm::dvec3, 3> line_directions{glm::normalize(glm::dvec3(0.5377, 0.8339, 0.1251)),
+                                                glm::normalize(glm::dvec3(-0.7263, 0.2137, 0.6531)),
+                                                glm::normalize(glm::dvec3(0.2891, -0.4517, -0.8441))};
 
-// Parallel rays from points, looked at along their direction: a triangle that a ray crosses has the ray's
-// point within its outline.
-class ParallelRays {
+// Parallel lines through points, looked at along their direction: a triangle that a line crosses has the
+// line's point within its outline.
+class ParallelLines {
 public:
-  ParallelRays(const glm::dvec3 &direction, const std::vector<glm::dvec3> &points_m,
-               const std::vector<std::size_t> &asked)
+  ParallelLines(const glm::dvec3 &direction, const std::vector<glm::dvec3> &points_m,
+                const std::vector<std::size_t> &asked)
       : z_(direction), x_(glm::normalize(glm::cross(direction, glm::dvec3(0.0, 0.0, 1.0)))),
-        y_(glm::cross(z_, x_)), crossings_(asked.size(), 0) {
+        y_(glm::cross(z_, x_)), leaves_(asked.size()) {
     for (const std::size_t point : asked) {
       seen_.push_back(along(points_m[point]));
       box_.add(seen_.back());
     }
   }
 
-  // Through a triangle: from its back to its front, which leaves a body, counts 1, the other way -1.
   void cross(const std::array<glm::dvec3, 3> &corners_m) {
     const std::array<glm::dvec3, 3> t{along(corners_m[0]), along(corners_m[1]), along(corners_m[2])};
     for (glm::length_t axis = 0; axis < 2; ++axis)
@@ -74,11 +73,11 @@ public:
           std::max({t[0][axis], t[1][axis], t[2][axis]}) < box_.min_m[axis])
         return;
     for (std::size_t i = 0; i < seen_.size(); ++i)
-      crossings_[i] += crossing(t, seen_[i]);
+      add_crossing(t, seen_[i], leaves_[i]);
   }
 
-  // Of the i-th that were asked.
-  int crossings(std::size_t i) const { return crossings_[i]; }
+  // Whether the i-th that was asked leaves by more surfaces than it enters, ahead and behind.
+  bool is_inside(std::size_t i) const { return leaves_[i].ahead > 0 && leaves_[i].behind > 0; }
 
 private:
   glm::dvec3 along(const glm::dvec3 &p) const { return {glm::dot(p, x_), glm::dot(p, y_), glm::dot(p, z_)}; }
@@ -87,20 +86,28 @@ private:
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   }
 
+  // Surfaces that are left less those that are entered, on the way ahead and on the way back.
+  struct Leaves {
+    int ahead = 0, behind = 0;
+  };
+
   // The areas of neighbours' common edges differ in sign alone, so that a ray is in one of them.
-  static int crossing(const std::array<glm::dvec3, 3> &t, const glm::dvec3 &p) {
+  static void add_crossing(const std::array<glm::dvec3, 3> &t, const glm::dvec3 &p, Leaves &leaves) {
     const double a = area(t[1], t[2], p), b = area(t[2], t[0], p), c = area(t[0], t[1], p);
     const bool is_front = a > 0.0 && b > 0.0 && c > 0.0, is_back = a < 0.0 && b < 0.0 && c < 0.0;
     if (!is_front && !is_back)
-      return 0;
+      return;
     const double depth = (a * t[0].z + b * t[1].z + c * t[2].z) / (a + b + c);
-    return depth <= p.z ? 0 : is_front ? 1 : -1;
+    if (depth > p.z)
+      leaves.ahead += is_front ? 1 : -1;
+    else
+      leaves.behind += is_front ? -1 : 1;
   }
 
   glm::dvec3 z_, x_, y_;
   std::vector<glm::dvec3> seen_;
   Box box_;
-  std::vector<int> crossings_;
+  std::vector<Leaves> leaves_;
 };
 
 bool may_close(const Body &body, double largest_m) {
@@ -124,17 +131,17 @@ Triangles triangles_of(const Scene &scene, const std::vector<std::uint32_t> &obj
 // Those of the points `asked` that are inside by all directions; of a body that does not close they disagree.
 std::vector<std::size_t> inside(const Scene &scene, const std::vector<std::uint32_t> &triangles,
                                 const std::vector<glm::dvec3> &points_m, std::vector<std::size_t> asked) {
-  for (const glm::dvec3 &direction : ray_directions) {
+  for (const glm::dvec3 &direction : line_directions) {
     if (asked.empty())
       break;
-    ParallelRays rays(direction, points_m, asked);
+    ParallelLines lines(direction, points_m, asked);
     for (const std::uint32_t triangle : triangles) {
       const auto &[a, b, c] = scene.triangles[triangle].vertices;
-      rays.cross({scene.positions_m[a], scene.positions_m[b], scene.positions_m[c]});
+      lines.cross({scene.positions_m[a], scene.positions_m[b], scene.positions_m[c]});
     }
     std::vector<std::size_t> left;
     for (std::size_t i = 0; i < asked.size(); ++i)
-      if (rays.crossings(i) > 0)
+      if (lines.is_inside(i))
         left.push_back(asked[i]);
     asked = std::move(left);
   }

@@ -22,7 +22,9 @@ Measurement lit_frame() {
 
 std::vector<Warning> warnings_of(const Measurement &frame, const Accuracy &asked = {},
                                  const Bounces &bounces = {}) {
-  return frame_warnings(Sensor{}, frame, asked, bounces);
+  Setup setup;
+  setup.bounces = bounces;
+  return frame_warnings(setup, Sensor{}, frame, asked);
 }
 
 Codes codes_of(const std::vector<Warning> &warnings) {
@@ -46,7 +48,10 @@ TEST_CASE("A frame that sees nothing, and one that is dark, are told") {
   CHECK(codes_of(warnings_of(frame)) == Codes{"all-dark"});
   frame.coverage = {0.0f, 0.0f, 0.0f};
   CHECK(codes_of(warnings_of(frame)) == Codes{"nothing-in-view"});
-  frame.coverage.clear(); // not asked for
+  Setup empty;
+  empty.warnings = {{"empty-scene", "", ""}};
+  CHECK(frame_warnings(empty, Sensor{}, frame, {}).empty()); // which says it all
+  frame.coverage.clear();                                    // not asked for
   CHECK(warnings_of(frame).empty());
 }
 
