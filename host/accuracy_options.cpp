@@ -38,8 +38,6 @@ void check_exact(const WrittenAccuracy &written, const Accuracy &accuracy, bool 
     refuse(fmt::format("{}: mode exact sums every sample and diode and keeps no bound; expected --mode "
                        "reduced or auto beside it",
                        written.max_error ? "--max-error" : "--max-amplitude-error"));
-  if (accuracy.mode == Mode::exact && written.strict)
-    refuse("--strict: mode exact keeps no bound; expected --max-error, or --mode reduced or auto beside it");
   if (on_reference && accuracy.mode != Mode::exact)
     refuse(fmt::format("--device reference: expected mode exact, which is all that the reference does{}",
                        written.mode ? "" : "; an error that is bounded means mode auto"));
@@ -48,6 +46,13 @@ void check_exact(const WrittenAccuracy &written, const Accuracy &accuracy, bool 
 }
 
 } // namespace
+
+void add_strict(CLI::App &command, WrittenAccuracy &written) {
+  command.add_flag("--strict", written.strict,
+                   "make every warning an error, exit code 3; and refuse frames some of whose pixels may be "
+                   "off by more than was asked for, exit code 8, which are else written with the channel "
+                   "error_bound_m");
+}
 
 void add_accuracy(CLI::App &command, WrittenAccuracy &written) {
   command
@@ -61,10 +66,7 @@ void add_accuracy(CLI::App &command, WrittenAccuracy &written) {
                                  1e6 * default_max_error_m));
   command.add_option("--max-amplitude-error", written.max_amplitude_error,
                      "largest relative amplitude error, e.g. 1e-3 [any]");
-  command.add_flag(
-      "--strict", written.strict,
-      "refuse frames some of whose pixels may be off by more than was asked for, with exit code 8, "
-      "where they are else written with the channel error_bound_m");
+  add_strict(command, written);
   command
       .add_option("--precision", written.precision,
                   "of the sum over the diodes, fp32 or fp64 [fp32; auto: what the error takes]")

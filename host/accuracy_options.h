@@ -19,6 +19,8 @@ struct WrittenAccuracy {
   bool strict = false;
 };
 
+// --strict alone, for commands that measure nothing.
+void add_strict(CLI::App &command, WrittenAccuracy &written);
 void add_accuracy(CLI::App &command, WrittenAccuracy &written);
 
 // A bounded error implies mode automatic unless a mode is written. Throws Error (usage), also where mode

@@ -180,6 +180,7 @@ void add_commands(CLI::App &app, Written &written) {
 
   CLI::App *check = app.add_subcommand("check", "validate a setup and print what follows from it");
   add_setup(*check, written);
+  add_strict(*check, written.accuracy);
 
   CLI::App *bench =
       app.add_subcommand("bench", "throughput: frames/s, interactions/s, time per pass, beside native code");

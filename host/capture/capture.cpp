@@ -3,6 +3,7 @@
 #include "engine/model/error.h"
 #include "host/input/file/input_error.h"
 #include "host/output/sheets/sheets.h"
+#include "host/report/frame_findings.h"
 #include "host/report/report.h"
 
 #include <algorithm>
@@ -28,6 +29,16 @@ nlohmann::ordered_json inputs_json(const std::vector<FileRead> &inputs) {
   });
 }
 
+// The setup's warnings, whose files are named relative to its folder: a run is the same wherever it is begun.
+std::vector<Warning> beside_setup(const Setup &setup) {
+  std::vector<Warning> warnings = setup.warnings;
+  const std::string folder = (setup.file.parent_path() / "").string();
+  for (Warning &warning : warnings)
+    if (!folder.empty() && warning.place.starts_with(folder))
+      warning.place.erase(0, folder.size());
+  return warnings;
+}
+
 RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::string &command,
                 const Camera &camera) {
   RunHead head{.command = command,
@@ -42,6 +53,7 @@ RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::st
     head.formats.push_back(format_name(format));
   head.channels = request.channels.names();
   head.output_precision = request.output_precision;
+  head.warnings = beside_setup(setup);
   return head;
 }
 
@@ -71,7 +83,7 @@ void require_measurable(const CaptureRequest &request, const Setup &setup) {
   frames_to_write(request, setup);
   require_names_for_files(setup.start.sensors);
   request.channels.require_in(setup, request.accuracy);
-  if (request.accuracy.strict && exposes_any_tap_by_tap(setup))
+  if (request.accuracy.strict && request.accuracy.mode != Mode::exact && exposes_any_tap_by_tap(setup))
     throw Error(ExitCode::accuracy, fmt::format("--strict: {}", tap_by_tap_is_exact));
   if (request.formats.contains(Format::ply) && !request.channels.has(row_of(&Return::distance_m)) &&
       !request.channels.has(row_of(&Measurement::unwrapped_distance_m)))
@@ -83,10 +95,14 @@ void require_measurable(const CaptureRequest &request, const Setup &setup) {
   if (request.output_precision == OutputPrecision::float64 && !has_distances(request.formats))
     throw Error(ExitCode::usage, "--output-precision float64: only exr, npz, h5, npy and csv hold values; "
                                  "expected one of them among --format");
+  if (request.accuracy.strict)
+    refuse_warnings(setup.warnings);
 }
 
 Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader) {
   Setup setup = loader.load(document);
+  if (request.accuracy.strict)
+    refuse_warnings(setup.warnings);
   for (const Warning &warning : setup.warnings)
     warn(warning);
   if (request.accuracy.mode != Mode::exact && !request.accuracy.strict && exposes_any_tap_by_tap(setup))
@@ -126,6 +142,12 @@ void leave_out_electronics(Setup &setup) {
 
 namespace {
 
+std::vector<Warning> of_frame(std::vector<Warning> warnings, std::uint32_t frame) {
+  for (Warning &warning : warnings)
+    warning.place += fmt::format(", frame {}", frame);
+  return warnings;
+}
+
 Setup measurable(const CaptureRequest &request, Setup setup) {
   require_measurable(request, setup);
   return setup;
@@ -136,7 +158,7 @@ Setup measurable(const CaptureRequest &request, Setup setup) {
 Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
                  const WantedChannels &measured, const std::shared_ptr<Camera> &camera, bool keep_unrounded)
     : setup_(measurable(request, std::move(setup))), frames_(frames_to_write(request, setup_)),
-      formats_(request.formats), channels_(request.channels), max_error_m_(request.accuracy.max_error_m),
+      formats_(request.formats), channels_(request.channels), accuracy_(request.accuracy),
       exposures_(setup_, camera, keep_taps, request.accuracy, request.paths, measured,
                  keep_unrounded || request.output_precision == OutputPrecision::float64),
       sequence_(setup_,
@@ -153,10 +175,11 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
                          const std::string &label) {
   bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
   TakenFrame taken = exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
-  if (auto warning = unpromised_warning(taken.measurement.accuracy, max_error_m_, taken.sensor)) {
-    warning->place += fmt::format(", frame {}", at.frame);
-    warn(*warning);
-  }
+  taken.warnings = frame_warnings(setup_, taken.sensor, taken.measurement, accuracy_);
+  if (accuracy_.strict)
+    refuse_warnings(of_frame(taken.warnings, at.frame));
+  for (const Warning &warning : taken.warnings)
+    warnings_.add(warning, at.frame);
   if (formats_.contains(Format::ply))
     taken.normals = exposures_.normals_of(taken, at.time_s);
   return taken;
@@ -171,8 +194,19 @@ void Capture::write(const FrameSequence::Measure &measure, std::size_t part_byte
       bar_->reach(at.frames_done * work_of_frame);
     return measure(at);
   };
-  sequence_.write(measure_next, part_bytes + bytes_of_normals());
+  try {
+    sequence_.write(measure_next, part_bytes + bytes_of_normals());
+  } catch (...) {
+    tell_warnings();
+    throw;
+  }
+  tell_warnings();
+}
+
+void Capture::tell_warnings() {
   bar_.reset(); // before anything is printed
+  for (const Warning &warning : warnings_.merged())
+    warn(warning);
 }
 
 std::size_t Capture::bytes_of_normals() const {
@@ -190,7 +224,7 @@ void Capture::for_each_sensor_frame(const std::function<void(const nlohmann::ord
 }
 
 FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
-  const auto &[sensor, measurement, mode, normals] = taken;
+  const auto &[sensor, measurement, mode, normals, warnings] = taken;
   return {sensor,
           at.frame,
           at.time_s,
@@ -198,7 +232,10 @@ FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
           measurement.passes,
           mode,
           measurement.accuracy,
-          measurement.bounces};
+          measurement.bounces,
+          {},
+          {},
+          warnings};
 }
 
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,

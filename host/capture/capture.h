@@ -8,6 +8,7 @@
 #include "host/capture/progress.h"
 #include "host/capture/variants.h"
 #include "host/input/setup/setup.h"
+#include "host/output/files/frame_warnings.h"
 
 #include <filesystem>
 #include <memory>
@@ -42,7 +43,8 @@ SetupDocument requested_document(const CaptureRequest &request, const std::files
 // The same of a document, by a loader that others of the same scenes may use.
 Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader);
 // Throws Error where frames of the setup cannot be measured and written as is asked for: (usage) frames,
-// paths or channels that it has not; (input) a sensor's name that can be none of a file.
+// paths or channels that it has not; (input) a sensor's name that can be none of a file, or warnings that are
+// to be errors.
 void require_measurable(const CaptureRequest &request, const Setup &setup);
 // The same for commands that compare ways to sum over the diodes: without bounces, and a warning says so.
 Setup requested_setup_without_bounces(const CaptureRequest &request);
@@ -80,7 +82,8 @@ public:
   // "device    NAME (DRIVER)" and an empty line.
   std::string device_text() const;
 
-  // A part of a frame; `next_s` as Exposures::take(). `label` follows that of the part.
+  // A part of a frame; `next_s` as Exposures::take(). `label` follows that of the part. Throws Error (input,
+  // accuracy) where the frame has warnings and they are to be errors.
   TakenFrame take(const SensorFrame &at, Light light, std::optional<double> next_s,
                   const std::string &label = "");
   // As Exposures::share().
@@ -90,15 +93,17 @@ public:
 
 private:
   std::size_t bytes_of_normals() const; // of the largest sensor's frame
+  void tell_warnings();
 
   Setup setup_;
   FrameRange frames_;
   std::set<Format> formats_;
   WantedChannels channels_;
-  double max_error_m_; // asked for
+  Accuracy accuracy_; // asked for
   Exposures exposures_;
   FrameSequence sequence_;
   std::optional<ProgressBar> bar_; // while it writes
+  FrameWarnings warnings_;         // of the frames that were taken here
 };
 
 // A manifest's record of a part of a frame.

@@ -97,6 +97,7 @@ struct TakenFrame {
   Mode mode = Mode::exact; // that it was taken in
   // Of each pixel's surface, by triangle_id, world frame, turned to the lens; only on request.
   std::vector<glm::vec3> normals{};
+  std::vector<Warning> warnings{}; // about it; the place of each is the sensor
 };
 
 // Takes frames of a setup, which must outlive it, on one device.

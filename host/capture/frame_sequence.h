@@ -46,7 +46,7 @@ struct SequenceRequest {
   FrameRange frames{};
   std::filesystem::path directory;
   RunFolder::Earlier earlier = RunFolder::Earlier::made_again; // frames of an earlier run that was the same
-  bool strict = false; // a frame that is there counts only if it has no unpromised pixel
+  bool strict = false; // a frame that is there counts only if it has no warning
 };
 
 class FrameSequence {

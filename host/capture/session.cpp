@@ -46,7 +46,8 @@ TakenFrame Session::take(std::size_t sensor, std::uint32_t number, const FrameRe
                             setup_->start.sensors.size(), setup_->frames.count, sensor, number));
   if (request.paths > 0 && !setup_->bounces.any())
     throw Error(ExitCode::usage, "paths: no light bounces in the setup");
-  if (request.accuracy.strict && exposes_tap_by_tap(*setup_, setup_->start.sensors[sensor]))
+  if (request.accuracy.strict && request.accuracy.mode != Mode::exact &&
+      exposes_tap_by_tap(*setup_, setup_->start.sensors[sensor]))
     throw Error(ExitCode::accuracy, fmt::format("strict: {}", tap_by_tap_is_exact));
   if (!taking_ || taking_->request != request) {
     taking_.reset(); // its memory first

@@ -4,6 +4,7 @@
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
 #include "host/report/findings.h"
+#include "host/report/frame_findings.h"
 #include "host/report/report.h"
 
 #include <algorithm>
@@ -231,7 +232,10 @@ std::string report_text(const Setup &setup, const Findings &findings) {
 void run_check(const Options &options) {
   const Setup setup = requested_setup(options.capture);
   const Findings findings = findings_of(setup);
-  for (const Warning &warning : warnings_of(setup, findings))
+  const std::vector<Warning> warnings = warnings_of(setup, findings);
+  if (options.capture.accuracy.strict)
+    refuse_warnings(warnings);
+  for (const Warning &warning : warnings)
     warn(warning);
   print(options.json ? json_text(report_json(setup, findings)) : report_text(setup, findings));
 }

@@ -36,7 +36,7 @@ std::string spread_line(const std::string &quantity, const std::vector<float> &v
 }
 
 std::string frame_text(const TakenFrame &taken, std::uint32_t frame) {
-  const auto &[sensor, measurement, mode, normals] = taken;
+  const auto &[sensor, measurement, mode, normals, warnings] = taken;
   std::string text = fmt::format("{}, frame {}, {:.3f} ms\n", sensor.name, frame, measurement.frame_ms);
   const std::string head = fmt::format("{:<24}{:>12}{:>12}{:>12}\n", "", "min", "median", "max");
   std::string lines;

@@ -147,7 +147,8 @@ typedef struct pmdsim_render_options {
   const char *channels; /* names, separated by commas; NULL: all but those on demand, as "all", to which
                          * "normals" and "rays" may be added. What only others need is not computed */
   uint32_t paths;       /* of the reference, for each pixel where light bounces; 0: it chooses */
-  int strict;           /* a frame some of whose pixels may be off by more is PMDSIM_BAD_ACCURACY */
+  int strict;           /* a frame some of whose pixels may be off by more is PMDSIM_BAD_ACCURACY; other
+                         * warnings of the setup and of the frame are PMDSIM_BAD_INPUT */
   const char *output_precision; /* of distances, "float32" or "float64"; NULL: float32 */
 } pmdsim_render_options;
 

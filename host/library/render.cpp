@@ -3,7 +3,7 @@
 #include "host/library/calls.h"
 #include "host/library/objects.h"
 #include "host/output/files/manifest.h"
-#include "host/report/report.h"
+#include "host/report/frame_findings.h"
 
 #include <charconv>
 #include <cmath>
@@ -37,8 +37,8 @@ std::optional<double> error_of(double error, double largest, const char *name) {
 }
 
 void check_exact(const Accuracy &accuracy, bool is_bounded, bool on_reference) {
-  if (accuracy.mode == Mode::exact && (is_bounded || accuracy.strict))
-    throw bad_argument("mode: exact keeps no bound, expected reduced or auto beside an error or strict");
+  if (accuracy.mode == Mode::exact && is_bounded)
+    throw bad_argument("mode: exact keeps no bound, expected reduced or auto beside an error");
   if (on_reference && (accuracy.mode != Mode::exact || accuracy.precision == Precision::fp32))
     throw bad_argument("the reference measures in mode exact and precision fp64 alone");
 }
@@ -113,6 +113,14 @@ FrameRequest request_of(const pmdsim_render_options *given, bool on_reference) {
           output_precision_of(options.output_precision)};
 }
 
+// The place of each is the sensor, or the setup.
+std::vector<Warning> warnings_of(const TakenFrame &taken, const Setup &setup, const Accuracy &asked) {
+  std::vector<Warning> warnings = frame_warnings(setup, taken.sensor, taken.measurement, asked);
+  if (taken.mode == Mode::exact && asked.mode != Mode::exact)
+    warnings.insert(warnings.begin(), tap_by_tap_warning(setup));
+  return warnings;
+}
+
 nlohmann::ordered_json report_of(const TakenFrame &taken, std::uint32_t frame, const Setup &setup,
                                  const Accuracy &asked) {
   const Measurement &measured = taken.measurement;
@@ -123,12 +131,7 @@ nlohmann::ordered_json report_of(const TakenFrame &taken, std::uint32_t frame, c
   json["frame_ms"] = measured.frame_ms;
   json["passes_ms"] = passes_json(measured.passes);
   json["check_ms"] = measured.accuracy.check_ms;
-  std::vector<Warning> warnings;
-  if (taken.mode == Mode::exact && asked.mode != Mode::exact)
-    warnings.push_back(tap_by_tap_warning(setup));
-  if (const auto warning = unpromised_warning(measured.accuracy, asked.max_error_m, taken.sensor))
-    warnings.push_back(*warning);
-  json["warnings"] = array_of(warnings, warning_json);
+  json["warnings"] = array_of(warnings_of(taken, setup, asked), warning_json);
   return json;
 }
 
@@ -147,6 +150,8 @@ pmdsim_status pmdsim_render(pmdsim_simulator *simulator, uint32_t sensor, uint32
     if (!session.has_setup())
       throw bad_argument("the simulator has no setup");
     const FrameRequest request = request_of(options, session.camera()->is_reference());
+    if (request.accuracy.strict)
+      refuse_warnings(session.setup().warnings);
     const Progress stop_when_cancelled = [&cancelled = in->cancelled](double) {
       if (cancelled)
         throw Error(ExitCode::interrupted, "cancelled");
@@ -154,6 +159,8 @@ pmdsim_status pmdsim_render(pmdsim_simulator *simulator, uint32_t sensor, uint32
     auto made = std::make_shared<FrameObject>();
     made->camera = session.camera();
     made->taken = session.take(sensor, frame, request, stop_when_cancelled);
+    if (request.accuracy.strict)
+      refuse_warnings(warnings_of(*made->taken, session.setup(), request.accuracy));
     made->channels = pmdsim::channels_of(made->taken->measurement);
     made->report = json_text(report_of(*made->taken, frame, session.setup(), request.accuracy));
     *result = add_frame(std::move(made));

@@ -119,12 +119,13 @@ void add_view_warnings(std::vector<Warning> &warnings, const SensorFindings &fin
                         "no ray of a coarse frame hits the scene; is the camera turned away, or are the "
                         "scene's back faces culled?"});
   for (std::size_t i = 0; i < shares_beyond.size(); ++i)
-    if (shares_beyond[i] > 0.0)
+    if (shares_beyond[i] > 0.0 && !(sensor.unwrap_range_m >= visible.max_m))
       warnings.push_back(
           {warning_code("beyond-ambiguity"),
            fmt::format("{} at {}", place_of(sensor), frequency_text(sensor.modulation_hz[i])),
            fmt::format("what is visible lies {:.6g} m to {:.6g} m away, {:.3g} % of it beyond the ambiguity "
-                       "range of {:.6g} m: distances wrap",
+                       "range of {:.6g} m: distances wrap; a lower modulation_hz, or several of them with "
+                       "unwrap_range_m, reach farther",
                        visible.min_m, visible.max_m, 100.0 * shares_beyond[i], sensor.ambiguity_m(i))});
 }
 
@@ -132,10 +133,11 @@ void add_tap_warning(std::vector<Warning> &warnings, const Sensor &sensor, const
   constexpr double rounding = 1e-9;
   const double frame_s = 1.0 / frames.rate_hz, taps_s = tap_sequence_s(sensor);
   if (frames.count > 1 && taps_s > frame_s * (1.0 + rounding))
-    warnings.push_back({warning_code("frames-overlap"), place_of(sensor),
-                        fmt::format("its taps take {:.6g} s, longer than the {:.6g} s from one frame to the "
-                                    "next: frames overlap",
-                                    taps_s, frame_s)});
+    warnings.push_back(
+        {warning_code("frames-overlap"), place_of(sensor),
+         fmt::format("its taps take {:.6g} s, longer than the {:.6g} s from one frame to the "
+                     "next: frames overlap; a shorter tap_interval_s or a lower rate_hz parts them",
+                     taps_s, frame_s)});
 }
 
 // No shape stands in its own light.

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
+#include <mutex>
+#include <set>
 #include <system_error>
 
 namespace pmdsim {
@@ -53,7 +55,11 @@ void print(const std::string &text) {
 std::string frequency_text(double modulation_hz) { return fmt::format("{:.10g} MHz", modulation_hz / 1e6); }
 
 void warn(const Warning &warning) {
-  fmt::print(stderr, "pmdsim: warning: {}: {} [{}]\n", warning.place, warning.text, warning.code);
+  static std::set<std::string> told; // variants and sensors of a run may warn of the same
+  static std::mutex mutex;
+  const std::scoped_lock lock(mutex);
+  if (told.insert(warning.code + '\n' + warning.place + '\n' + warning.text).second)
+    fmt::print(stderr, "pmdsim: warning: {}: {} [{}]\n", warning.place, warning.text, warning.code);
 }
 
 std::string place_of(const Sensor &sensor) { return "sensor " + sensor.name; }

@@ -15,7 +15,7 @@ namespace pmdsim {
 // Prints the text as it is, at once. Throws Error (output) where stdout cannot take it.
 void print(const std::string &text);
 
-// One line on stderr: "pmdsim: warning: PLACE: TEXT [CODE]".
+// One line on stderr, "pmdsim: warning: PLACE: TEXT [CODE]", once in a process.
 void warn(const Warning &warning);
 
 // A sensor as a warning's place, "sensor NAME".

@@ -241,6 +241,30 @@ class Render(unittest.TestCase):
                 self.assertTrue(told.place.endswith("/sensors/0/waveform"))
                 self.assertTrue(str(told).startswith(told.place + ": sensor "))
 
+    def test_warnings_of_frames_come_once_for_a_setup(self) -> None:
+        setup = small_setup()
+        setup["sensors"][0]["pose"] = {"position_m": [0, 0, 0], "look_at_m": [0, 0, 1]}
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            with pmdsim.Simulator(setup) as simulator:
+                for _ in range(3):
+                    frame = simulator.render()
+        self.assertEqual([w.message.code for w in caught], ["nothing-in-view"])
+        self.assertEqual((caught[0].message.place, caught[0].filename), ("sensor pmd", __file__))
+        self.assertEqual(frame.report["warnings"][0]["code"], "nothing-in-view")
+        with self.assertRaisesRegex(pmdsim.InputError, "nothing-in-view"):
+            pmdsim.render(setup, strict=True)
+
+    def test_strict_makes_warnings_errors(self) -> None:
+        self.assertEqual(pmdsim.render(small_setup(), strict=True).report["warnings"], [])
+        setup = small_setup()
+        setup["sensors"][0]["waveform"] = {"harmonics": [0, 1]}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", pmdsim.PmdsimWarning)
+            with self.assertRaises(pmdsim.InputError) as caught:
+                pmdsim.render(setup, strict=True)
+        self.assertTrue(str(caught.exception).endswith("[unseen-harmonics]; strict makes warnings errors"))
+
     def test_a_frame_that_may_be_off_by_more_warns(self) -> None:
         """Light that cancels in some pixels; 0.25 micrometres are close to what rounding leaves."""
 

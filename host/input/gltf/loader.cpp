@@ -9,8 +9,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
-#include <set>
 #include <tiny_gltf.h>
 #include <utility>
 
@@ -117,27 +117,27 @@ void append_object(const tinygltf::Model &model, const tinygltf::Node &node, con
   }
 }
 
+std::vector<std::size_t> indices_of(const std::vector<SceneNode> &nodes) {
+  std::vector<std::size_t> indices;
+  std::ranges::transform(nodes, std::back_inserter(indices), &SceneNode::index);
+  return indices;
+}
+
 } // namespace
 
 GltfFile::GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model,
-                   std::shared_ptr<GltfMaterials> materials)
+                   std::shared_ptr<GltfMaterials> materials, const json &document)
     : file_(std::move(file)), model_(std::move(model)), materials_(std::move(materials)),
       nodes_(active_nodes(*model_, Place{file_})), animation_(read_animation(*model_, nodes_, Place{file_})),
-      skins_(read_skins(*model_, nodes_, Place{file_})) {}
+      skins_(read_skins(*model_, nodes_, Place{file_})),
+      ignored_(ignored_features(document, indices_of(nodes_), Place{file_})) {}
 
 bool GltfFile::moves() const { return animation_.moves(); }
 
-std::vector<std::string> GltfFile::materials_beyond_lambert() const {
-  std::set<int> used;
-  for (const SceneNode &node : nodes_)
-    if (const int mesh = model_->nodes[node.index].mesh; mesh >= 0)
-      for (const tinygltf::Primitive &primitive : model_->meshes[static_cast<std::size_t>(mesh)].primitives)
-        used.insert(primitive.material);
-  std::vector<std::string> found;
-  for (const int material : used)
-    if (const std::string words = materials_->beyond_lambert(material); !words.empty())
-      found.push_back(words);
-  return found;
+std::vector<Warning> GltfFile::warnings(const std::vector<std::string> &used) const {
+  std::vector<Warning> all = ignored_.warnings;
+  std::ranges::copy(unused_carriers(ignored_, used), std::back_inserter(all));
+  return all;
 }
 
 std::vector<NamedNode> GltfFile::named_nodes() const {
@@ -209,7 +209,7 @@ std::string absent_node_text(const std::string &name, const std::filesystem::pat
 GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at) {
   const GltfDocument document = read_gltf_document(file, named_at);
   const auto model = std::make_shared<const tinygltf::Model>(model_of(document, file));
-  return {file, model, std::make_shared<GltfMaterials>(document.json, model, file)};
+  return {file, model, std::make_shared<GltfMaterials>(document.json, model, file), document.json};
 }
 
 } // namespace pmdsim

@@ -5,6 +5,7 @@
 #include "engine/model/scene.h"
 #include "host/input/file/input_error.h"
 #include "host/input/gltf/animation.h"
+#include "host/input/gltf/ignored_features.h"
 #include "host/input/gltf/nodes.h"
 #include "host/input/gltf/skin.h"
 
@@ -47,14 +48,14 @@ class GltfFile {
 public:
   // Throws Error (input).
   GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model,
-           std::shared_ptr<GltfMaterials> materials);
+           std::shared_ptr<GltfMaterials> materials, const nlohmann::json &document);
 
   const std::filesystem::path &file() const { return file_; }
   // Whether any node of the active scene is animated.
   bool moves() const;
-  // Materials of the active scene that are metallic, glossy or transmitting, in words, each once: "\"brass\"
-  // (metallic)".
-  std::vector<std::string> materials_beyond_lambert() const;
+  // What it asks for that is not simulated; cameras and lights as far as no pose is at their nodes, of which
+  // `used` are the names.
+  std::vector<Warning> warnings(const std::vector<std::string> &used) const;
   // At any finite time, before 0 too, with some nodes put elsewhere. Throws Error (input): also where a node
   // to be put is not there, or more than once.
   GltfScene at(double time_s, const std::vector<PlacedNode> &placed = {}) const;
@@ -69,6 +70,7 @@ private:
   std::vector<SceneNode> nodes_;             // of the active scene, where nothing animates them
   Animation animation_;
   Skins skins_;
+  IgnoredFeatures ignored_;
 };
 
 // That a file has no such node, and which was meant or which there are.
@@ -76,8 +78,8 @@ std::string absent_node_text(const std::string &name, const std::filesystem::pat
                              const std::vector<NamedNode> &nodes);
 
 // Throws Error (input): an error in the file is told at its place there ("scene.gltf: /accessors/3: ..."), a
-// file that cannot be read at `named_at`, the place that names it. Features of glTF that the simulator does
-// not have yet are refused by name, never ignored.
+// file that cannot be read at `named_at`, the place that names it. Features of glTF without which the scene
+// would be another are refused by name; the others that are not simulated are warned of.
 GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at);
 
 } // namespace pmdsim

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace pmdsim {
 
@@ -12,7 +11,6 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr double least_bounce_error_m = 1e-6, largest_bounce_error_m = 1.0;
-constexpr std::size_t most_materials_named = 20;
 
 double bounce_error_m(const std::string &text, const Place &place) {
   const std::optional<double> error_m = length_m(text);
@@ -20,15 +18,6 @@ double bounce_error_m(const std::string &text, const Place &place) {
     throw input_error(place, "expected a length from 1um to 1m with its unit, m, mm or um, e.g. 1mm, found " +
                                  in_quotes(text));
   return *error_m;
-}
-
-std::string materials_text(const std::vector<std::string> &materials) {
-  const auto named = std::min(materials.size(), most_materials_named);
-  const std::string others =
-      named < materials.size() ? fmt::format(" and {} more", materials.size() - named) : "";
-  return fmt::format(
-      "only diffuse light bounces, so these materials are taken for Lambert surfaces: {}{}",
-      fmt::join(materials.begin(), materials.begin() + static_cast<std::ptrdiff_t>(named), ", "), others);
 }
 
 } // namespace
@@ -54,8 +43,6 @@ std::vector<Warning> bounce_warnings(const Scene &scene, const GltfFile &gltf) {
                                      scene.triangles.empty()
                                          ? "the scene has points only, and nothing bounces off points"
                                          : "points neither reflect nor block light that bounces"));
-  if (const std::vector<std::string> materials = gltf.materials_beyond_lambert(); !materials.empty())
-    warnings.push_back(input_warning(warning_code("lambert-for-bounces"), place, materials_text(materials)));
   return warnings;
 }
 

@@ -4,6 +4,7 @@
 #include "host/input/schema/schema_check.h"
 #include "host/input/setup/free_pose.h"
 #include "host/input/setup/parts.h"
+#include "host/input/setup/plausibility.h"
 #include "host/input/words/near_name.h"
 
 #include <algorithm>
@@ -106,7 +107,7 @@ void warn_of_unseen_harmonics(const Place &sensors, Setup &setup) {
       setup.warnings.push_back(input_warning(
           warning_code("unseen-harmonics"), sensors / s / "waveform",
           fmt::format("sensor {}: none of its harmonics shows in {} taps (only number 1, {}, "
-                      "{}, {} ... do): amplitudes will be 0",
+                      "{}, {} ... do): amplitudes will be 0; take more taps or other harmonics",
                       sensor.name, sensor.taps, sensor.taps - 1, sensor.taps + 1, 2 * sensor.taps - 1)));
   }
 }
@@ -129,7 +130,7 @@ void warn_of_unused_others(const Place &sensors, Setup &setup) {
       setup.warnings.push_back(
           input_warning(warning_code("other-light-unused"), sensors / s,
                         fmt::format("sensor {}: illuminators with modulation_hz are left out, as only "
-                                    "electronics see light of other cameras",
+                                    "electronics see light of other cameras; give the sensor electronics",
                                     sensor.name)));
 }
 
@@ -163,16 +164,31 @@ void set_sensors_and_illuminators(const Place &root, const Surroundings &at, Set
   set_illuminators(illuminators, std::move(all), root / "illuminators", setup.start);
 }
 
+// The nodes at which sensors and illuminators are.
+std::vector<std::string> nodes_of_poses(const ordered_json &setup) {
+  std::vector<std::string> names;
+  for (const char *list : {"sensors", "illuminators"})
+    for (const ordered_json &placed : setup.at(list))
+      if (placed.at("pose").contains("node"))
+        names.push_back(placed.at("pose").at("node").get<std::string>());
+  return names;
+}
+
 void warn(const SceneSource &source, const Place &root, Setup &setup) {
   for (std::size_t i = 0; i < setup.start.sensors.size(); ++i)
     std::ranges::copy(unit_doubts(setup.start.sensors[i], root / "sensors" / i),
                       std::back_inserter(setup.warnings));
+  std::ranges::copy(implausibilities(setup, root), std::back_inserter(setup.warnings));
   warn_of_unused_others(root / "sensors", setup);
   warn_of_unseen_harmonics(root / "sensors", setup);
   if (setup.start.scene.shape_count() == 0)
     setup.warnings.push_back(
         input_warning(warning_code("empty-scene"), Place{source.file},
-                      "the scene has neither triangles nor points, nothing will be seen"));
+                      "the scene has neither triangles nor points, nothing will be seen; name another "
+                      "scene, or give the file's active scene meshes"));
+  if (source.gltf)
+    std::ranges::copy(source.gltf->warnings(nodes_of_poses(setup.as_used)),
+                      std::back_inserter(setup.warnings));
   if (setup.bounces.any() && source.gltf)
     std::ranges::copy(bounce_warnings(setup.start.scene, *source.gltf), std::back_inserter(setup.warnings));
 }

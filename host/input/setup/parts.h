@@ -79,7 +79,7 @@ std::vector<Illuminator> illuminators_of(const nlohmann::ordered_json &illuminat
 // /backscatter than lambert.
 Bounces bounces_of(const nlohmann::ordered_json &setup, const Place &root);
 
-// What the scene has that light that bounces does not heed: points, and surfaces that do not scatter evenly.
+// What the scene has that light that bounces does not heed: points.
 std::vector<Warning> bounce_warnings(const Scene &scene, const GltfFile &gltf);
 
 // The setup's scene at a time, its nodes in their places. Throws Error (input).

@@ -94,6 +94,11 @@ ordered_json warning_json(const Warning &warning) {
   return {{"code", warning.code}, {"place", warning.place}, {"text", warning.text}};
 }
 
+Warning warning_of(const ordered_json &json) {
+  return {json.at("code").get<std::string>(), json.at("place").get<std::string>(),
+          json.at("text").get<std::string>()};
+}
+
 ordered_json device_json(const DeviceInfo &device) {
   return {{"index", device.index},   {"name", device.name},     {"kind", device.kind},
           {"driver", device.driver}, {"usable", device.usable}, {"lacks", device.lacks}};
@@ -133,6 +138,7 @@ ordered_json head_json(const RunHead &run) {
   head["setup"] = run.setup;
   head["objects"] = objects_json(run.objects);
   head["points"] = how_to_make_points();
+  head["warnings"] = array_of(run.warnings, warning_json);
   return head;
 }
 
@@ -152,6 +158,8 @@ ordered_json frame_json(const FrameRecord &record) {
   if (record.bounces)
     frame["bounces"] = bounces_json(*record.bounces);
   frame["outputs"] = array_of(record.outputs, [](const NamedFile &file) { return file.name; });
+  if (!record.warnings.empty())
+    frame["warnings"] = array_of(record.warnings, warning_json);
   return frame;
 }
 

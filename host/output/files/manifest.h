@@ -45,6 +45,7 @@ struct FrameRecord {
   nlohmann::ordered_json told{}; // what the command tells of it beyond that
   // What pictures of the whole run need of it (host/output/sheets/sheets.h), if they show it.
   nlohmann::ordered_json thumbnails{};
+  std::vector<Warning> warnings{}; // about it; the place of each is the sensor
 };
 
 // Of distances in files that know double (NPY, NPZ, HDF5; EXR has them as two channels).
@@ -64,6 +65,7 @@ struct RunHead {
   std::vector<std::string> formats{};
   std::vector<std::string> channels{}; // asked for; none: all
   OutputPrecision output_precision = OutputPrecision::float32;
+  std::vector<Warning> warnings{}; // about the setup
 };
 
 // As the command line has them: "exact", "reduced", "auto"; "fp32", "fp64".
@@ -114,6 +116,8 @@ nlohmann::ordered_json bounces_json(const BouncesReport &report);
 
 // code, place, text.
 nlohmann::ordered_json warning_json(const Warning &warning);
+// Throws json::exception where it is none.
+Warning warning_of(const nlohmann::ordered_json &json);
 
 // index, name, kind, driver, usable, lacks.
 nlohmann::ordered_json device_json(const DeviceInfo &device);
@@ -125,7 +129,8 @@ nlohmann::ordered_json objects_json(const std::vector<std::string> &objects);
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);
 
 // What stands in a manifest before its frames: program, version, command, device, driver, mode and errors
-// that were asked for, formats, channels, output_precision, inputs, setup, objects, points.
+// that were asked for, formats, channels, output_precision, inputs, setup, objects, points, warnings of the
+// setup.
 nlohmann::ordered_json head_json(const RunHead &run);
 // A frame as it stands there: what is the same whenever and wherever the run is made, so without times.
 nlohmann::ordered_json frame_json(const FrameRecord &record);

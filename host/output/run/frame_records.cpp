@@ -51,13 +51,19 @@ bool is_name_of_frame(const std::string &name, std::uint32_t frame) {
 }
 
 // The three that follow: whether it looks as record_json() makes it, or json::exception.
+bool has_warnings_form(const ordered_json &entry) {
+  for (const ordered_json &warning : entry.value("warnings", ordered_json::array()))
+    warning_of(warning);
+  return true;
+}
+
 bool entry_has_its_form(const ordered_json &entry, std::uint32_t frame) {
   const auto is_name = [&](const ordered_json &name) {
     return is_name_of_frame(name.get_ref<const std::string &>(), frame);
   };
   return entry.at("sensor").is_string() && entry.at("frame") == frame && entry.at("time_s").is_number() &&
          entry.at("mode").is_string() && entry.at("unpromised").is_number_unsigned() &&
-         entry.contains("error_claimed_m") &&
+         entry.contains("error_claimed_m") && has_warnings_form(entry) &&
          std::ranges::all_of(entry.at("outputs").get_ref<const Array &>(), is_name);
 }
 
@@ -131,10 +137,10 @@ bool has_its_files(const fs::path &folder, const ordered_json &record) {
   return true;
 }
 
-bool has_unpromised(const ordered_json &record) {
+bool has_warnings(const ordered_json &record) {
   const auto any = [](const ordered_json &of) {
     const auto pixels = of.find("unpromised");
-    return pixels != of.end() && *pixels != 0;
+    return (pixels != of.end() && *pixels != 0) || of.contains("warnings");
   };
   return std::ranges::any_of(record.at("sensors"), [&](const ordered_json &sensor) {
     return any(sensor.at("manifest")) || (sensor.contains("told") && any(sensor.at("told")));

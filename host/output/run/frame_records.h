@@ -30,8 +30,8 @@ std::optional<nlohmann::ordered_json> read_record(const std::filesystem::path &f
 // Whether the outputs that it names are there, each of its size.
 bool has_its_files(const std::filesystem::path &folder, const nlohmann::ordered_json &record);
 
-// Whether there are pixels that may be off by more than was asked for.
-bool has_unpromised(const nlohmann::ordered_json &record);
+// Whether it has warnings, or pixels that may be off by more than was asked for.
+bool has_warnings(const nlohmann::ordered_json &record);
 
 // The numbers of the frames that have a record of whichever run, sorted.
 std::vector<std::uint32_t> recorded_frames(const std::filesystem::path &folder);

@@ -1,6 +1,7 @@
 #include "host/output/run/run_folder.h"
 
 #include "engine/model/error.h"
+#include "host/output/files/frame_warnings.h"
 #include "host/output/run/run_json.h"
 
 #include <algorithm>
@@ -195,7 +196,7 @@ void RunFolder::remove_leftovers() const {
 
 std::optional<nlohmann::ordered_json> RunFolder::whole(std::uint32_t frame) const {
   auto record = read_record(path(), frame, run_.hash);
-  if (record && (!has_its_files(path(), *record) || (strict_ && has_unpromised(*record))))
+  if (record && (!has_its_files(path(), *record) || (strict_ && has_warnings(*record))))
     record.reset();
   return record;
 }
@@ -240,6 +241,9 @@ std::size_t RunFolder::write_manifest(const std::function<void()> &wait) {
   OutputSet files(path());
   files.add(manifest_name, [&](OutputFile &file) {
     nlohmann::ordered_json head = run_.head;
+    const nlohmann::ordered_json of_setup = head.value("warnings", nlohmann::ordered_json::array());
+    head.erase("warnings");
+    FrameWarnings of_frames;
     head["run"] = run_.hash;
     JsonPieces pieces([&](std::string_view text) { file.write(text); }, head);
     pieces.list("frames", [&](const JsonPieces::Add &add) {
@@ -247,9 +251,18 @@ std::size_t RunFolder::write_manifest(const std::function<void()> &wait) {
         if (const auto record = read_record(path(), frame, run_.hash);
             record && has_its_files(path(), *record)) {
           ++frames;
-          for (const auto &sensor : record->at("sensors"))
-            add(sensor.at("manifest"));
+          for (const auto &sensor : record->at("sensors")) {
+            const nlohmann::ordered_json &entry = sensor.at("manifest");
+            add(entry);
+            for (const auto &warning : entry.value("warnings", nlohmann::ordered_json::array()))
+              of_frames.add(warning_of(warning), frame);
+          }
         }
+    });
+    pieces.list("warnings", [&](const JsonPieces::Add &add) {
+      std::ranges::for_each(of_setup, add);
+      for (const Warning &warning : of_frames.merged())
+        add(warning_json(warning));
     });
     pieces.end();
   });

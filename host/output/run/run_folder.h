@@ -28,7 +28,7 @@ public:
   // Creates the directory and begins the run there, or joins those that are at it. Where nobody else is, an
   // earlier run of another kind goes, its records and its manifest, unless the earlier frames are to be kept.
   // `wait` is called while another process is about to begin or writes the manifest; what it throws comes
-  // out. `strict`: a frame that has unpromised pixels is not whole. Throws Error: (input) where frames of
+  // out. `strict`: a frame that has warnings is not whole. Throws Error: (input) where frames of
   // another run are to be kept; (output) where others are at another run there, or nothing can be written.
   RunFolder(const std::filesystem::path &directory, RunIdentity run, const FrameRange &frames,
             Earlier earlier, std::function<void()> wait, bool strict = false);

@@ -88,8 +88,8 @@ def render(
     paths : int, optional
         Of the reference, for each pixel where light bounces.
     strict : bool, optional
-        A frame some of whose pixels may be off by more than was asked for is an error; else it warns and has the
-        channel `error_bound_m`.
+        Every warning of the setup and of the frame is an error: InputError, or AccuracyError where pixels may be off
+        by more than was asked for, which else have the channel `error_bound_m`.
     output_precision : "float32" or "float64", optional
         Of distances and `range_m`, float32 by default. float64 keeps what rounding takes: a float32 at 2 m has steps of
         0.24 um.

@@ -117,6 +117,7 @@ class Simulator:
         self._finalizer = weakref.finalize(self, _destroy, self._handle, self._owner, self._caller)
         self._described: Optional[Dict[str, Any]] = None
         self._warned: Set[str] = set()
+        self._warned_of_frames: Set[str] = set()  # since the setup was loaded or changed
         self._setup_file = ""  # of a setup that was read here, and not by the library
         self._setup_directory = ""
         if setup is not None:
@@ -219,6 +220,7 @@ class Simulator:
         self._setup_file, self._setup_directory = given.file, given.directory
         self._described = None
         self._warned = set()
+        self._warned_of_frames = set()
         self._warn(stacklevel + 1)
 
     def set(self, path: Union[str, Mapping[str, Any]], value: Any = None) -> None:
@@ -255,6 +257,7 @@ class Simulator:
         text = json_text(changes_of(changes), "set").encode("utf-8")
         self._call(lambda: check(library().pmdsim_simulator_set(handle, text)), self._setup_file)
         self._described = None
+        self._warned_of_frames = set()
         self._warn(stacklevel)
 
     def move(
@@ -399,7 +402,10 @@ class Simulator:
 
         measured = Frame(LibrarySource(self._call(measure, self._setup_file), self._told("objects") or ()))
         for told in measured.report.get("warnings", ()):
-            warnings.warn(warning_of(told), stacklevel=stacklevel)
+            key = f"{told['code']} {told['place']}"  # the text has the frame's own figures
+            if key not in self._warned_of_frames:
+                self._warned_of_frames.add(key)
+                warnings.warn(warning_of(told), stacklevel=stacklevel)
         return measured
 
     def frames(

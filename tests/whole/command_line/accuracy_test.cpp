@@ -92,7 +92,6 @@ TEST_CASE("what cannot be asked for is refused before anything is read") {
   refuse({"--max-amplitude-error", "2"}, {"--max-amplitude-error: expected a number above 0, at most 1"});
   refuse({"--mode", "fast"}, {"--mode"});
   refuse({"--mode", "exact", "--max-error", "1mm"}, {"--max-error: mode exact", "reduced or auto"});
-  refuse({"--strict"}, {"--strict: mode exact keeps no bound", "--max-error"});
   refuse({"--device", "reference", "--mode", "auto"}, {"--device reference: expected mode exact"});
   refuse({"--device", "reference", "--precision", "fp32"}, {"--device reference: expected precision fp64"});
 }

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 using namespace pmdsim::test;
 using nlohmann::json;
@@ -154,7 +155,10 @@ TEST_CASE("every setup in scenes/ is valid") {
       const Run run = run_pmdsim({"check", entry.path().string()});
       INFO(entry.path() << ": " << run.errors);
       CHECK(run.exit_code == 0);
-      CHECK((run.errors.empty() || run.errors.ends_with("distances wrap\n"))); // some shall show just that
+      const bool is_of_blender = entry.path().parent_path().filename() == "blender"; // with lights and coats
+      std::istringstream lines(run.errors);
+      for (std::string line; std::getline(lines, line);) // some shall show just that
+        CHECK((line.ends_with("[beyond-ambiguity]") || (is_of_blender && line.find("[gltf-") != line.npos)));
       ++setups;
     }
   CHECK(setups >= 4);

@@ -2,12 +2,9 @@
 
 #include "host/input/file/json_file.h"
 #include "host/input/gltf/extensions.h"
-#include "host/input/gltf/material/gloss.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <optional>
 #include <string>
 #include <vector>
@@ -112,21 +109,6 @@ GltfMaterial GltfMaterials::material_of(int index, bool has_colours) {
   result.surface = surface_of(stated, std::move(paint), least_alpha, has_colours);
   result.surface.double_sided = material.value("doubleSided", false);
   return result;
-}
-
-std::string GltfMaterials::beyond_lambert(int material) const {
-  if (material < 0)
-    return "";
-  const json &stated = materials_.at(static_cast<std::size_t>(material));
-  const std::vector<std::string> words = gloss_of(stated);
-  const auto name = stated.find("name");
-  const bool has_name =
-      name != stated.end() && name->is_string() && !name->get_ref<const std::string &>().empty();
-  return words.empty() ? ""
-                       : fmt::format("{} ({})",
-                                     has_name ? in_quotes(name->get<std::string>())
-                                              : fmt::format("number {}", material),
-                                     fmt::join(words, ", "));
 }
 
 } // namespace pmdsim

@@ -32,10 +32,6 @@ public:
   // neither the factor nor the texture has an alpha below 1, else refused. Throws Error (input).
   GltfMaterial material_of(int material, bool has_colours);
 
-  // What /materials/`material` shows that a Lambert surface has not, with its name: "\"brass\" (metallic)",
-  // "number 3 (glossy)"; empty where there is nothing, and for -1.
-  std::string beyond_lambert(int material) const;
-
 private:
   double add_texture(const nlohmann::json &info, Paint &paint, GltfMaterial &result);
 

@@ -24,14 +24,15 @@ function warningText(warning) {
   return `${place}${warning?.text ?? JSON.stringify(warning)}${code}`;
 }
 
-// Those of the run, and those of frames with their numbers.
+// Those of the run, which tell of its frames, too; where a manifest has none, those of frames with their numbers.
 function warnings() {
   const list = listOf(run.head.warnings).map(warningText);
+  if (run.head.warnings) return list;
   for (const sensor of run.sensors)
     for (const {frame, entry} of sensor.frames) {
       for (const warning of listOf(entry.warnings))
         list.push(`${sensor.name}, frame ${frame}: ${warningText(warning)}`);
-      if (entry.unpromised > 0 && !entry.warnings && !run.head.warnings)
+      if (entry.unpromised > 0 && !entry.warnings)
         list.push(`${sensor.name}, frame ${frame}: ${entry.unpromised} returns may be off by more than was asked for.`);
     }
   return list;

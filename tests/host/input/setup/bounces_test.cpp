@@ -100,7 +100,7 @@ TEST_CASE("Only surfaces that scatter evenly let light bounce") {
              Contains(": /backscatter: expected \"lambert\" where light bounces: of \"constant\" "));
 }
 
-TEST_CASE("Materials that are no Lambert surfaces are named once where light bounces") {
+TEST_CASE("Materials that are no matt surfaces are named once, whether or not light bounces") {
   SetupFixture fixture;
   give_materials(fixture, {{{"name", "brass"}, {"pbrMetallicRoughness", {{"metallicFactor", 1}}}},
                            {{"name", "plaster"}},
@@ -108,13 +108,16 @@ TEST_CASE("Materials that are no Lambert surfaces are named once where light bou
   json &primitives = fixture.scene["meshes"][0]["primitives"];
   const json brass = primitives[0];
   primitives.push_back(brass);
-  const Setup setup = fixture.load();
-  REQUIRE(setup.warnings.size() == 1);
-  CHECK_THAT(setup.warnings[0].text,
-             EndsWith("only diffuse light bounces, so these materials are taken for Lambert "
-                      "surfaces: \"brass\" (metallic), number 2 (metallic, glossy)"));
-  fixture.setup["bounces"] = 0;
-  CHECK(fixture.load().warnings.empty());
+  for (const json &bounces : {json(0), json("all")}) {
+    fixture.setup["bounces"] = bounces;
+    const std::vector<Warning> warnings = fixture.load().warnings;
+    REQUIRE(warnings.size() == 2);
+    CHECK(warnings[0].code == "gltf-metallic");
+    CHECK_THAT(warnings[0].place, EndsWith("scene.gltf: /materials/0"));
+    CHECK_THAT(warnings[0].text, Contains("2 of 3 materials are metallic (\"brass\", number 2), "));
+    CHECK(warnings[1].code == "gltf-glossy");
+    CHECK_THAT(warnings[1].text, Contains("1 of 3 materials is glossy (number 2), "));
+  }
 }
 
 TEST_CASE("Materials that no mesh of the scene has are not named") {
@@ -131,7 +134,8 @@ TEST_CASE("A long list of materials ends with a number") {
   give_materials(fixture, std::vector<json>(23, brass));
   const Setup setup = fixture.load();
   REQUIRE(setup.warnings.size() == 1);
-  CHECK_THAT(setup.warnings[0].text, EndsWith("\"brass\" (metallic) and 3 more"));
+  CHECK_THAT(setup.warnings[0].text, Contains("23 of 23 materials are metallic (\"brass\", "));
+  CHECK_THAT(setup.warnings[0].text, Contains("\"brass\" and 18 more)"));
 }
 
 TEST_CASE("Points are warned of where light bounces") {

@@ -185,7 +185,7 @@ TEST_CASE("Harmonics of which the taps show none are a warning") {
   CHECK(two[0].code == "unseen-harmonics");
   CHECK_THAT(two[0].place, EndsWith("setup.json: /sensors/0/waveform"));
   CHECK(two[0].text == "sensor pmd: none of its harmonics shows in 5 taps (only number 1, 4, 6, 9 ... do): "
-                       "amplitudes will be 0");
+                       "amplitudes will be 0; take more taps or other harmonics");
   CHECK(warnings({0, 1, -2, 0, 3, 0, 4}, 5).size() == 1);
   CHECK(warnings({0, 0, 1}, 3).size() == 1);
   for (const json &seen :

@@ -1,0 +1,27 @@
+#pragma once
+// Warnings of many frames, each told once.
+
+#include "engine/model/warning.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pmdsim {
+
+class FrameWarnings {
+public:
+  // `warning` is of the frame of that number, its place the sensor alone.
+  void add(const Warning &warning, std::uint32_t frame);
+  // In the order in which they came, with the first frame of each and how many more have it.
+  std::vector<Warning> merged() const;
+
+private:
+  struct OfFrames {
+    Warning warning; // of the first
+    std::uint32_t first, last;
+    std::size_t count;
+  };
+  std::vector<OfFrames> all_;
+};
+
+} // namespace pmdsim

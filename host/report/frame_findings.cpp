@@ -1,0 +1,109 @@
+#include "host/report/frame_findings.h"
+
+#include "engine/model/error.h"
+#include "host/report/report.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <span>
+#include <string_view>
+
+namespace pmdsim {
+namespace {
+
+constexpr double largest_share_saturated = 0.01; // of a frame's pixels
+constexpr double largest_claim = 2.0;            // over what was asked for
+
+bool has_any_above_zero(std::span<const float> values) {
+  return std::ranges::any_of(values, [](float value) { return value > 0.0f; });
+}
+
+bool warns_of(const Setup &setup, std::string_view code) {
+  return std::ranges::find(setup.warnings, code, &Warning::code) != setup.warnings.end();
+}
+
+// Of the diodes' light, noise aside. Nothing where no channel tells.
+std::optional<bool> has_light(const Measurement &frame) {
+  if (!frame.mean_radiance.empty())
+    return has_any_above_zero(frame.mean_radiance);
+  const bool is_noisy = frame.has_electrons;
+  if (frame.returns.empty() || frame.returns.front().amplitude.empty() || is_noisy)
+    return std::nullopt;
+  return has_any_above_zero(frame.returns.front().amplitude);
+}
+
+void add_view(const Setup &setup, const Sensor &sensor, const Measurement &frame,
+              std::vector<Warning> &warnings) {
+  if (frame.coverage.empty())
+    return;
+  const bool sees = has_any_above_zero(frame.coverage);
+  if (!sees && !warns_of(setup, "empty-scene"))
+    warnings.push_back({warning_code("nothing-in-view"), place_of(sensor),
+                        "no sample hits the scene: turn or move the sensor by its pose; or give the scene's "
+                        "materials doubleSided, where the lens is behind them"});
+  else if (sees && has_light(frame) == false && !warns_of(setup, "diodes-turned-away"))
+    warnings.push_back(
+        {warning_code("all-dark"), place_of(sensor),
+         "it sees the scene, but no diode's light reaches what it sees: turn or move the "
+         "illuminators by their poses, or look for what stands before them (the channel lit)"});
+}
+
+double share_saturated(const Measurement &frame) {
+  std::size_t most = 0, pixels = 1;
+  for (const Return &of : frame.returns) {
+    const auto full = std::ranges::count_if(of.saturated, [](std::uint32_t taps) { return taps != 0; });
+    most = std::max(most, static_cast<std::size_t>(full));
+    pixels = std::max(pixels, of.saturated.size());
+  }
+  return static_cast<double>(most) / static_cast<double>(pixels);
+}
+
+void add_saturated(const Sensor &sensor, const Measurement &frame, std::vector<Warning> &warnings) {
+  if (const double share = share_saturated(frame); share > largest_share_saturated)
+    warnings.push_back(
+        {warning_code("saturated"), place_of(sensor),
+         fmt::format("a tap was full in {:.3g} % of the pixels (the channel saturated), whose distances are "
+                     "wrong: a shorter integration_time_s or a larger lens_f_number helps",
+                     100.0 * share)});
+}
+
+void add_claim(const Sensor &sensor, std::optional<double> claimed_m, double asked_m, const char *option,
+               std::vector<Warning> &warnings) {
+  if (claimed_m && *claimed_m > largest_claim * asked_m)
+    warnings.push_back({warning_code("claim-above-budget"), place_of(sensor),
+                        fmt::format("the error claimed is {:.3g} mm, {:.3g} times what {} asks for: ask for "
+                                    "more, or take the frame for what is claimed",
+                                    1e3 * *claimed_m, *claimed_m / asked_m, option)});
+}
+
+} // namespace
+
+std::vector<Warning> frame_warnings(const Setup &setup, const Sensor &sensor, const Measurement &measurement,
+                                    const Accuracy &asked) {
+  std::vector<Warning> warnings;
+  add_view(setup, sensor, measurement, warnings);
+  add_saturated(sensor, measurement, warnings);
+  if (asked.mode != Mode::exact)
+    add_claim(sensor, measurement.accuracy.claimed_m, asked.max_error_m, "--max-error", warnings);
+  if (measurement.bounces)
+    add_claim(sensor, measurement.bounces->claimed_m, setup.bounces.max_error_m, "bounce_error", warnings);
+  if (const auto unpromised = unpromised_warning(measurement.accuracy, asked.max_error_m, sensor))
+    warnings.push_back(*unpromised);
+  return warnings;
+}
+
+void refuse_warnings(const std::vector<Warning> &warnings) {
+  if (warnings.empty())
+    return;
+  const auto &[code, place, text] = warnings.front();
+  const bool is_of_error = code == "claim-above-budget" || code == "error-above-asked";
+  const std::size_t more = warnings.size() - 1;
+  const std::string others =
+      more == 0 ? "" : fmt::format("; and {} warning{} more", more, more == 1 ? "" : "s");
+  throw Error(is_of_error ? ExitCode::accuracy : ExitCode::input,
+              fmt::format("{}: {} [{}]{}; strict makes warnings errors", place, text, code, others),
+              {place.substr(0, place.find(": ")),
+               place.find(": ") == place.npos ? std::string() : place.substr(place.find(": ") + 2)});
+}
+
+} // namespace pmdsim
