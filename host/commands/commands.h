@@ -1,7 +1,7 @@
 #pragma once
 // The commands of the program, one file each. All throw Error.
 
-#include "host/options.h"
+#include "host/command_line/options.h"
 
 namespace pmdsim {
 

@@ -2,7 +2,7 @@
 // The report that a run makes of itself when it ends.
 
 #include "host/capture/capture.h"
-#include "host/options.h"
+#include "host/command_line/options.h"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 // The command line, parsed.
 
 #include "engine/model/error.h"
-#include "host/command_examples.h"
-#include "host/options.h"
+#include "host/command_line/command_examples.h"
+#include "host/command_line/options.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

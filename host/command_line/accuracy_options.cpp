@@ -1,4 +1,4 @@
-#include "host/accuracy_options.h"
+#include "host/command_line/accuracy_options.h"
 
 #include "host/input/file/input_error.h"
 #include "host/input/file/length.h"

@@ -1,4 +1,4 @@
-#include "host/command_examples.h"
+#include "host/command_line/command_examples.h"
 
 #include <algorithm>
 #include <array>

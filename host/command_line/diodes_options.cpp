@@ -1,4 +1,4 @@
-#include "host/diodes_options.h"
+#include "host/command_line/diodes_options.h"
 
 #include "host/input/file/input_error.h"
 

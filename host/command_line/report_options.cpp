@@ -1,7 +1,7 @@
-#include "host/report_options.h"
+#include "host/command_line/report_options.h"
 
 #include "engine/model/error.h"
-#include "host/accuracy_options.h"
+#include "host/command_line/accuracy_options.h"
 #include "host/input/file/input_error.h"
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-#include "host/setup_options.h"
+#include "host/command_line/setup_options.h"
 
 #include "engine/model/error.h"
 #include "host/input/file/input_error.h"

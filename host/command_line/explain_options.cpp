@@ -1,4 +1,4 @@
-#include "host/explain_options.h"
+#include "host/command_line/explain_options.h"
 
 #include <CLI/CLI.hpp>
 

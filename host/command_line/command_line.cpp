@@ -1,6 +1,6 @@
-#include "host/command_line.h"
+#include "host/command_line/command_line.h"
 
-#include "host/command_examples.h"
+#include "host/command_line/command_examples.h"
 #include "host/explain/topics.h"
 #include "host/input/calibration/calibration_sensor.h"
 #include "host/input/schema/limits.h"

@@ -2,9 +2,9 @@
 // The command line, parsed and checked.
 
 #include "host/capture/capture.h"
-#include "host/correct_options.h"
-#include "host/explain_options.h"
-#include "host/new_options.h"
+#include "host/command_line/correct_options.h"
+#include "host/command_line/explain_options.h"
+#include "host/command_line/new_options.h"
 #include "host/output/page/report_page.h"
 #include "host/tolerance/diode_study.h"
 

@@ -1,4 +1,4 @@
-#include "host/correct_options.h"
+#include "host/command_line/correct_options.h"
 
 #include "engine/model/error.h"
 #include "host/input/file/input_error.h"

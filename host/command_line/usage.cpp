@@ -1,4 +1,4 @@
-#include "host/usage.h"
+#include "host/command_line/usage.h"
 
 #include "engine/model/error.h"
 #include "host/input/words/near_name.h"

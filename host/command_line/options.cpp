@@ -1,11 +1,11 @@
-#include "host/options.h"
+#include "host/command_line/options.h"
 
-#include "host/command_examples.h"
-#include "host/command_line.h"
+#include "host/command_line/command_examples.h"
+#include "host/command_line/command_line.h"
+#include "host/command_line/usage.h"
 #include "host/input/calibration/calibration_sensor.h"
 #include "host/input/schema/limits.h"
 #include "host/manual/manual.h"
-#include "host/usage.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

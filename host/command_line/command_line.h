@@ -1,13 +1,13 @@
 #pragma once
 // What the command line offers: its commands and options, with their words, before anything is checked.
 
-#include "host/accuracy_options.h"
-#include "host/correct_options.h"
-#include "host/diodes_options.h"
+#include "host/command_line/accuracy_options.h"
+#include "host/command_line/correct_options.h"
+#include "host/command_line/diodes_options.h"
+#include "host/command_line/options.h"
+#include "host/command_line/report_options.h"
+#include "host/command_line/setup_options.h"
 #include "host/manual/command_table.h"
-#include "host/options.h"
-#include "host/report_options.h"
-#include "host/setup_options.h"
 
 #include <map>
 #include <optional>
