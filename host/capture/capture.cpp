@@ -225,17 +225,16 @@ void Capture::for_each_sensor_frame(const std::function<void(const nlohmann::ord
 
 FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
   const auto &[sensor, measurement, mode, normals, warnings] = taken;
-  return {sensor,
-          at.frame,
-          at.time_s,
-          measurement.frame_ms,
-          measurement.passes,
-          mode,
-          measurement.accuracy,
-          measurement.bounces,
-          {},
-          {},
-          warnings};
+  FrameRecord record{sensor,
+                     at.frame,
+                     at.time_s,
+                     measurement.frame_ms,
+                     measurement.passes,
+                     mode,
+                     measurement.accuracy,
+                     measurement.bounces};
+  record.warnings = warnings;
+  return record;
 }
 
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,

@@ -11,26 +11,26 @@
 namespace pmdsim {
 namespace {
 
-struct Quantity {
+struct ToleranceUnit {
   std::map<std::string_view, double> units; // in the unit of Tolerances
   double most;
   const char *expected;
 };
 
 constexpr double degree = std::numbers::pi / 180.0;
-const Quantity lengths{{{"m", 1.0}, {"mm", 1e-3}, {"um", 1e-6}},
-                       1.0,
-                       "a length from 0 to 1 m with its unit, m, mm or um, e.g. 0.1mm"};
-const Quantity tilts{{{"deg", degree}, {"rad", 1.0}},
-                     90.0 * degree,
-                     "an angle from 0 to 90 degrees with its unit, deg or rad, e.g. 1deg"};
-const Quantity phases{{{"deg", degree}, {"rad", 1.0}},
-                      180.0 * degree,
-                      "an angle from 0 to 180 degrees with its unit, deg or rad, e.g. 1deg"};
-const Quantity shares{{{"%", 0.01}}, 1.0, "a share from 0% to 100% with its sign, e.g. 5%"};
-const Quantity chances{{{"%", 0.01}}, 0.5, "a chance from 0% to 50% with its sign, e.g. 1%"};
+const ToleranceUnit lengths{{{"m", 1.0}, {"mm", 1e-3}, {"um", 1e-6}},
+                            1.0,
+                            "a length from 0 to 1 m with its unit, m, mm or um, e.g. 0.1mm"};
+const ToleranceUnit tilts{{{"deg", degree}, {"rad", 1.0}},
+                          90.0 * degree,
+                          "an angle from 0 to 90 degrees with its unit, deg or rad, e.g. 1deg"};
+const ToleranceUnit phases{{{"deg", degree}, {"rad", 1.0}},
+                           180.0 * degree,
+                           "an angle from 0 to 180 degrees with its unit, deg or rad, e.g. 1deg"};
+const ToleranceUnit shares{{{"%", 0.01}}, 1.0, "a share from 0% to 100% with its sign, e.g. 5%"};
+const ToleranceUnit chances{{{"%", 0.01}}, 0.5, "a chance from 0% to 50% with its sign, e.g. 1%"};
 
-double quantity_of(const char *option, const std::string &text, const Quantity &quantity) {
+double tolerance_of(const char *option, const std::string &text, const ToleranceUnit &quantity) {
   constexpr double rounding = 1.0 + 1e-12; // of 90 degrees in radians
   double number = 0.0;
   const char *const last = text.data() + text.size();
@@ -79,10 +79,10 @@ void add_diodes(CLI::App &command, WrittenDiodes &written) {
 DiodeRequest diode_request(const WrittenDiodes &written) {
   DiodeRequest request;
   Tolerances &tolerances = request.tolerances;
-  const auto take = [](const char *option, const std::optional<std::string> &text, const Quantity &quantity,
-                       double &value) {
+  const auto take = [](const char *option, const std::optional<std::string> &text,
+                       const ToleranceUnit &quantity, double &value) {
     if (text)
-      value = quantity_of(option, *text, quantity);
+      value = tolerance_of(option, *text, quantity);
   };
   take("--position", written.position, lengths, tolerances.position_m);
   take("--axis", written.axis, tilts, tolerances.axis_rad);

@@ -11,7 +11,7 @@
 namespace pmdsim {
 namespace {
 
-std::vector<std::string> kind_names() {
+std::vector<std::string> setup_kind_names() {
   std::vector<std::string> names;
   for (const StartKind &kind : start_kinds())
     names.emplace_back(kind.name);
@@ -40,7 +40,7 @@ std::string kind_list() {
 
 void add_new(CLI::App &command, WrittenNew &written) {
   command.add_option("KIND", written.kind, "what is seen, see below [room]")
-      ->type_name(fmt::format("TEXT:{{{}}}", fmt::join(kind_names(), ",")));
+      ->type_name(fmt::format("TEXT:{{{}}}", fmt::join(setup_kind_names(), ",")));
   command.add_option("DIR", written.folder, "the new folder [KIND]");
   command.add_option("--distance-m", written.wishes.distance_m,
                      "from the lens to a target, of a ball to its centre, metres, 0.1 to 100 [2]");
@@ -67,7 +67,7 @@ NewSetup new_setup_of(const WrittenNew &written) {
         ExitCode::usage,
         fmt::format("KIND: expected one of {}, found {}; a folder of another name comes behind it, as in "
                     "`pmdsim new room {}`",
-                    fmt::join(kind_names(), ", "), in_quotes(written.kind), written.kind));
+                    fmt::join(setup_kind_names(), ", "), in_quotes(written.kind), written.kind));
   return {kind, written.folder.empty() ? std::filesystem::path(kind->name) : written.folder,
           sizes_of(*kind, written.wishes), written.force};
 }
