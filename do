@@ -23,6 +23,7 @@ packages_of_long_tests=(
   mmdebstrap groff-base man-db zsh fish
   slurm-wlm munge procps python3-distributed python3-dask
   chromium chromium-driver python3-selenium
+  python3-pil
 )
 
 say() { printf '%s\n' "do: $*" >&2; }

@@ -16,9 +16,14 @@ import sys
 import tempfile
 from dataclasses import dataclass, field
 
+import numpy as np
+
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 TIME_UNITS = ("ms", "s", "min", "frames/s")
 LONG_MARK = "<!-- examples: long -->"
+FIGURES_PAGE = "figures.md"
+TIMED_FIGURES = {"tradeoff.png"}  # show times, and are made by hand
+MEAN_DIFFERENCE = 1.0  # of 255: last digits of channels differ from processor to processor
 
 
 @dataclass
@@ -130,6 +135,26 @@ def run_page(page: pathlib.Path, folder: pathlib.Path, environment: dict[str, st
     return wrong
 
 
+def picture(file: pathlib.Path) -> np.ndarray:
+    from PIL import Image  # which pages without pictures do not need
+
+    return np.asarray(Image.open(file).convert("RGB"), dtype=float)
+
+
+def wrong_pictures(made: pathlib.Path, kept: pathlib.Path) -> list[str]:
+    """A line for each picture of `kept` that is not as it was made just now."""
+    names = {file.name for file in kept.glob("*.png")} - TIMED_FIGURES
+    wrong = [f"{name}: not made by {FIGURES_PAGE}" for name in sorted(names - {file.name for file in made.iterdir()})]
+    for file in sorted(made.iterdir()):
+        if not (kept / file.name).exists():
+            wrong.append(f"{file.name}: not in {kept}")
+            continue
+        a, b = picture(file), picture(kept / file.name)
+        if a.shape != b.shape or np.abs(a - b).mean() > MEAN_DIFFERENCE:
+            wrong.append(f"{file.name}: is not the picture that its command makes")
+    return wrong
+
+
 def is_long(page: pathlib.Path) -> bool:
     return LONG_MARK in page.read_text(encoding="utf-8")
 
@@ -156,6 +181,8 @@ def main() -> int:
             wrong += run_page(page, folder, environment)
             if arguments.keep:
                 shutil.copytree(folder / "figures", arguments.keep, dirs_exist_ok=True)
+            elif page.name == FIGURES_PAGE:
+                wrong += wrong_pictures(folder / "figures", source / "scenes" / "figures")
     print("\n".join(wrong), file=sys.stderr)
     print(f"{count} examples run, {len(wrong)} of them wrong")
     return 1 if wrong or count == 0 else 0
