@@ -40,7 +40,7 @@ const std::map<std::string, HostLayout> host_layouts{
            half_step_x_hi, half_step_x_lo, half_step_y_hi, half_step_y_lo),
     STRUCT(LensModel, chip, radial_hi, radial_lo, tangential, guesses_per_radius, fold_radius, fold_distorted,
            padding),
-    STRUCT(RasterView, x, y, z, ray_x, ray_y, ray_corner, columns, rows, fold_radius, fold_distorted),
+    STRUCT(RasterView, x, y, z, ray_x, ray_y, ray_corner, columns, rows, padding_1, padding_2),
     STRUCT(EdgeSample, column, row, triangle),
     STRUCT(SettleEdgesConstants, grid, chip, planes, ids, samples, count, column, row, columns, rows, side, resolution_x, padding),
     STRUCT(RimCell, fragment, first_candidate),

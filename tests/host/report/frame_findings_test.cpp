@@ -67,7 +67,9 @@ TEST_CASE("Saturated pixels are told where they are more than one in a hundred")
 
 TEST_CASE("A claim is told where it is more than twice what was asked for") {
   Measurement frame = lit_frame();
-  Accuracy asked{.mode = Mode::automatic, .max_error_m = 1e-3};
+  Accuracy asked;
+  asked.mode = Mode::automatic;
+  asked.max_error_m = 1e-3;
   frame.accuracy.claimed_m = 1.9e-3;
   CHECK(warnings_of(frame, asked).empty());
   frame.accuracy.claimed_m = 2.1e-3;

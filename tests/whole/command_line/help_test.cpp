@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-std::vector<std::string> lines_of(const std::string &text) {
+std::vector<std::string> help_lines(const std::string &text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);)
@@ -21,7 +21,7 @@ std::vector<std::string> lines_of(const std::string &text) {
   return lines;
 }
 
-std::vector<std::string> commands() { return lines_of(run_pmdsim({"manual", "commands"}).output); }
+std::vector<std::string> commands() { return help_lines(run_pmdsim({"manual", "commands"}).output); }
 
 // The command line that begins a row of a table, up to two spaces, word by word and without the program's
 // name.
@@ -38,7 +38,7 @@ std::vector<std::string> arguments_of(const std::string &row) {
 
 // Of the section "Examples:" of a command's help.
 std::vector<std::vector<std::string>> examples_of(const std::string &command) {
-  const std::vector<std::string> help = lines_of(run_pmdsim({command, "--help"}).output);
+  const std::vector<std::string> help = help_lines(run_pmdsim({command, "--help"}).output);
   std::vector<std::vector<std::string>> examples;
   for (auto line = std::ranges::find(help, "Examples:"); line != help.end() && ++line != help.end();) {
     if (!line->starts_with("  pmdsim "))
@@ -79,7 +79,7 @@ TEST_CASE("without arguments the program says what to do first, and it works", "
   CHECK(run.errors.empty());
   const Workspace work;
   int steps = 0;
-  for (const std::string &line : lines_of(run.output))
+  for (const std::string &line : help_lines(run.output))
     if (line.starts_with("  pmdsim ")) {
       INFO(line);
       const Run step = run_pmdsim(arguments_of(line), {.directory = work.path()});
