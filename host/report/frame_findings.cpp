@@ -41,7 +41,8 @@ void add_view(const Setup &setup, const Sensor &sensor, const Measurement &frame
     warnings.push_back({warning_code("nothing-in-view"), place_of(sensor),
                         "no sample hits the scene: turn or move the sensor by its pose; or give the scene's "
                         "materials doubleSided, where the lens is behind them"});
-  else if (sees && has_light(frame) == false && !warns_of(setup, "diodes-turned-away"))
+  else if (sees && has_light(frame) == false && !warns_of(setup, "diodes-turned-away") &&
+           !warns_of(setup, "unseen-harmonics"))
     warnings.push_back(
         {warning_code("all-dark"), place_of(sensor),
          "it sees the scene, but no diode's light reaches what it sees: turn or move the "

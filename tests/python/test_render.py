@@ -110,7 +110,7 @@ class Render(unittest.TestCase):
         whole, few = pmdsim.render(small_setup()), pmdsim.render(small_setup(), channels=["distance_m", "range_m"])
         self.assertEqual(set(few.channels), {"distance_m", "range_m"})
         self.assertEqual(few.distance_m.tobytes(), whole.distance_m.tobytes())
-        electronics = {"preset": "kinect_v2_like", "integration_time_s": 1e-4, "lens_f_number": 1.0}
+        electronics = {"preset": "kinect_v2_like", "integration_time_s": 1e-6, "lens_f_number": 1.4}
         counting = {"sensors": [{**two_frequencies["sensors"][0], "taps": 12, "electronics": electronics}]}
         for changes in ({}, two_frequencies, counting):
             setup = small_setup(**changes)
@@ -269,7 +269,11 @@ class Render(unittest.TestCase):
         """Light that cancels in some pixels; 0.25 micrometres are close to what rounding leaves."""
 
         def render(max_error: str, strict: bool = False) -> pmdsim.Frame:
-            change = {"sensors/0/resolution": [32, 32]}
+            change = {
+                "sensors/0/resolution": [32, 32],
+                "sensors/0/focal_length_m": 2.0,  # the same view, by a lens that is long on purpose
+                "sensors/0/pixel_pitch_m": [20e-6, 20e-6],
+            }
             return pmdsim.render(scenes / "analytic" / "cancel.json", max_error=max_error, strict=strict, set=change)
 
         with warnings.catch_warnings(record=True) as caught:
