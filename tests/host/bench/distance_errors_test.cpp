@@ -96,24 +96,33 @@ TEST_CASE("errors are wrapped, apart for edges, and nothing dark counts") {
   const HalfWall wall(2);
   const TruePixels truth = wall.truth({4, 5, 6, 7});
   Measurement found = wall.found();
-  auto &distance_m = found.returns[0].distance_m;
-  const auto ambiguity_m = static_cast<float>(wall.sensor.ambiguity_m());
-  distance_m[4] += ambiguity_m - 0.003f;
-  distance_m[5] += 0.001f;
-  distance_m[6] += 0.5f;
+  auto &distance_m = found.returns[0].unrounded_distance_m;
+  const double ambiguity_m = wall.sensor.ambiguity_m();
+  distance_m[4] += ambiguity_m - 0.003;
+  distance_m[5] += 0.001;
+  distance_m[6] += 0.5;
   const ErrorsByPlace errors = distance_errors(truth, {false, false, true, false}, found);
   CHECK(errors.smooth.pixels == 2);
-  CHECK(*errors.smooth.max_m == Approx(0.003).margin(2e-6));
-  CHECK(*errors.smooth.rms_m == Approx(std::sqrt((9e-6 + 1e-6) / 2.0)).margin(2e-6));
+  CHECK(*errors.smooth.max_m == Approx(0.003).margin(1e-12));
+  CHECK(*errors.smooth.rms_m == Approx(std::sqrt((9e-6 + 1e-6) / 2.0)).margin(1e-12));
   CHECK(errors.edges.pixels == 1);
-  CHECK(*errors.edges.max_m == Approx(0.5).margin(2e-6));
+  CHECK(*errors.edges.max_m == Approx(0.5).margin(1e-12));
 }
 
 TEST_CASE("no distance where the reference has one is the largest error that there is") {
   const HalfWall wall(1);
   Measurement found = wall.found();
-  found.returns[0].distance_m[4] = std::numeric_limits<float>::quiet_NaN();
+  found.returns[0].unrounded_distance_m[4] = std::numeric_limits<double>::quiet_NaN();
   const ErrorsByPlace errors = distance_errors(wall.truth({4}), {false}, found);
   CHECK(*errors.smooth.max_m == 0.5 * wall.sensor.ambiguity_m());
   CHECK_FALSE(errors.edges.max_m);
+}
+
+TEST_CASE("distances that are rounded alone have errors, too") {
+  const HalfWall wall(1);
+  Measurement found = wall.found();
+  found.returns[0].unrounded_distance_m.clear();
+  found.returns[0].distance_m[4] += 0.001f;
+  const ErrorsByPlace errors = distance_errors(wall.truth({4}), {false}, found);
+  CHECK(*errors.smooth.max_m == Approx(0.001).margin(1e-6));
 }
