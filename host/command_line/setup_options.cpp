@@ -14,8 +14,10 @@ void add_setups(CLI::App &command, WrittenSetups &written, Setups setups) {
   CLI::Option *files = command.add_option("SETUP", written.setups, "setup file (JSON)");
   if (setups != Setups::none_or_one)
     files->required();
-  if (setups != Setups::several)
-    files->expected(setups == Setups::one ? 1 : 0, 1)->allow_extra_args(false);
+  if (setups == Setups::one)
+    files->expected(1)->allow_extra_args(false); // what follows is another operand
+  if (setups == Setups::none_or_one)
+    files->expected(0, 1);
   command
       .add_option(
           "--set", written.changes,

@@ -57,7 +57,6 @@ PMDSIM_CONSTANT constant_lists_hidden = 43; // 1: of triangles that the lens doe
 PMDSIM_CONSTANT constant_exact_only = 44; // 1: nothing is decided in float
 PMDSIM_CONSTANT constant_point_dimensions = 45; // by powers: 2 or 3: their sums are polynomials of the point in so many coordinates; 0: loops over the diodes
 PMDSIM_CONSTANT constant_keeps_bounds = 46; // 1: what each pixel may be off by is a channel, too
-PMDSIM_CONSTANT constant_dark_beyond_fold = 48; // 1: places without a ray see nothing; 0: there are none
 PMDSIM_CONSTANT constant_passes_on = 47; // 1: pixels that may be off by more than was asked for are listed for a later class
 PMDSIM_CONSTANT constant_reports_kept = 48; // 1: the largest bound of the pixels that keep theirs is wanted
 PMDSIM_CONSTANT constant_block_list = 49; // one of no_blocks and blocks_*: of depth records only those of a list
@@ -69,6 +68,7 @@ PMDSIM_CONSTANT constant_cosine_fraction = 54; // float; of pattern_power, what 
 PMDSIM_CONSTANT constant_beams = 55; // 1: what rounding does within beams is kept beside the light
 PMDSIM_CONSTANT constant_keeps_mean = 56; // 1: the last frequency is 0 Hz, whose sum is the mean light's
 PMDSIM_CONSTANT constant_keeps_rests = 57; // 1: what rounding takes from distance and range is a channel, too
+PMDSIM_CONSTANT constant_dark_beyond_fold = 58; // 1: places without a ray see nothing; 0: there are none
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // the uniform-pixel pass takes all, and none can be beyond the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest

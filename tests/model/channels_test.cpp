@@ -37,20 +37,14 @@ std::map<std::string, std::uint32_t> slots_of_shader() {
   return slots;
 }
 
-// The rows of the documents' one table of channels.
+// The rows of the table of channels.
 std::vector<std::string> documented_rows() {
-  std::vector<fs::path> documents{root / "README.md"};
-  if (fs::exists(root / "docs"))
-    for (const auto &entry : fs::directory_iterator(root / "docs"))
-      documents.push_back(entry.path());
   std::vector<std::string> rows;
-  for (const fs::path &document : documents) {
-    bool inside = false;
-    for (const std::string &line : lines_of(document)) {
-      inside = line.starts_with("| channel | unit |") || (inside && line.starts_with("|"));
-      if (inside && line.starts_with("| `"))
-        rows.push_back(line);
-    }
+  bool inside = false;
+  for (const std::string &line : lines_of(root / "docs" / "outputs.md")) {
+    inside = line.starts_with("| channel | unit |") || (inside && line.starts_with("|"));
+    if (inside && line.starts_with("| `"))
+      rows.push_back(line);
   }
   return rows;
 }

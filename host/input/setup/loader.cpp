@@ -168,10 +168,17 @@ void set_sensors_and_illuminators(const Place &root, const Surroundings &at, Set
 std::vector<std::string> nodes_of_poses(const ordered_json &setup) {
   std::vector<std::string> names;
   for (const char *list : {"sensors", "illuminators"})
-    for (const ordered_json &placed : setup.at(list))
-      if (placed.at("pose").contains("node"))
-        names.push_back(placed.at("pose").at("node").get<std::string>());
+    for (const ordered_json &placed : setup.at(list)) {
+      const ordered_json &pose = placed.at("pose"),
+                         &first = pose.contains("chain") ? pose.at("chain").at(0) : pose;
+      if (first.contains("node"))
+        names.push_back(first.at("node").get<std::string>());
+    }
   return names;
+}
+
+bool has_warning(const Setup &setup, std::string_view code) {
+  return std::ranges::find(setup.warnings, code, &Warning::code) != setup.warnings.end();
 }
 
 void warn(const SceneSource &source, const Place &root, Setup &setup) {
@@ -186,9 +193,11 @@ void warn(const SceneSource &source, const Place &root, Setup &setup) {
         input_warning(warning_code("empty-scene"), Place{source.file},
                       "the scene has neither triangles nor points, nothing will be seen; name another "
                       "scene, or give the file's active scene meshes"));
+  const bool tells_of_cameras = has_warning(setup, "no-camera-node");
   if (source.gltf)
-    std::ranges::copy(source.gltf->warnings(nodes_of_poses(setup.as_used)),
-                      std::back_inserter(setup.warnings));
+    std::ranges::copy_if(
+        source.gltf->warnings(nodes_of_poses(setup.as_used)), std::back_inserter(setup.warnings),
+        [&](const Warning &warning) { return warning.code != "gltf-camera" || !tells_of_cameras; });
   if (setup.bounces.any() && source.gltf)
     std::ranges::copy(bounce_warnings(setup.start.scene, *source.gltf), std::back_inserter(setup.warnings));
 }

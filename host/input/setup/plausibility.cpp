@@ -27,6 +27,14 @@ double view_deg(const Sensor &sensor) {
   return (is_fisheye ? half : std::atan(half)) * 2.0 / std::numbers::pi * 180.0;
 }
 
+// Whether a length of that sensor is doubted already.
+bool is_doubted(const Setup &setup, std::size_t sensor) {
+  const std::string key = fmt::format("/sensors/{}/", sensor);
+  return std::ranges::any_of(setup.warnings, [&](const Warning &warning) {
+    return warning.code == "unusual-value" && warning.place.find(key) != std::string::npos;
+  });
+}
+
 void add_views(const Setup &setup, const Place &root, std::vector<Warning> &warnings) {
   for (std::size_t i = 0; i < setup.start.sensors.size(); ++i) {
     const Sensor &sensor = setup.start.sensors[i];
@@ -35,7 +43,7 @@ void add_views(const Setup &setup, const Place &root, std::vector<Warning> &warn
     const bool is_image = std::max(sensor.resolution.x, sensor.resolution.y) >= least_columns ||
                           sensor.focal_length_m > longest_focal_length_m;
     const bool is_narrow = angle_deg < least_view_deg && is_image;
-    if (!is_narrow && (angle_deg <= largest_view_deg || is_fisheye))
+    if ((!is_narrow && (angle_deg <= largest_view_deg || is_fisheye)) || is_doubted(setup, i))
       continue;
     warnings.push_back(input_warning(
         warning_code("field-of-view"), root / "sensors" / i / "focal_length_m",

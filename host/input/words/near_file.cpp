@@ -29,7 +29,7 @@ std::vector<std::string> names_in(const std::filesystem::path &folder) {
   return names;
 }
 
-// "scenes\wall.gltf" as "scenes/wall.gltf".
+// "parts\wall.gltf" as "parts/wall.gltf".
 std::filesystem::path with_slashes(const std::filesystem::path &file) {
   std::string text = file.string();
   std::ranges::replace(text, '\\', '/');

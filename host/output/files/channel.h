@@ -1,5 +1,5 @@
 #pragma once
-// The channels of a frame as files name them (README.md, "Outputs"), and the files of their values.
+// The channels of a frame as files name them (docs/outputs.md, "Channels"), and the files of their values.
 
 #include "engine/model/channels.h"
 #include "host/output/files/output_file.h"

@@ -51,7 +51,8 @@ TEST_CASE("Text need not be quoted, and what is wrong is told as in a file") {
     return run_pmdsim({"check", small.setup, "--set", change});
   };
   CHECK(check("sensors/pmd/waveform=square").exit_code == 0);
-  CHECK(check("sensors/0/waveform=sinus").errors.find("/sensors/0/waveform: expected") != std::string::npos);
+  CHECK(check("sensors/0/waveform=sinus").errors.find("/sensors/0/waveform (by --set): expected") !=
+        std::string::npos);
   CHECK(check("sensors/0/waveform=sinus").exit_code == 3);
   CHECK(check("sensors/0/wave=square").errors.find("unknown key \"wave\"") != std::string::npos);
   for (const char *wrong : {"sensors/0/taps", "=4", ""}) {

@@ -59,7 +59,7 @@ Mistakes text_mistakes() {
                  "`[20e6]`"),
        rewritten("`NaN`", "0.0018", "NaN", {"setup.json:7:23:", "a finite number"}, "A number"),
        rewritten("a backslash in text", "wall.gltf", "scenes\\wall.gltf",
-                 {"setup.json:2:19:", "expected / in paths"}, "`scenes/wall.gltf`"),
+                 {"setup.json:2:19:", "expected / in paths"}, "`parts/wall.gltf`"),
        rewritten("text that is not closed", "\"pmd\",", "\"pmd,",
                  {"setup.json:4:13:", "a double quote at the end"}, "`\"pmd\"`"),
        setup_text("the last brackets are missing", good.substr(0, good.rfind("  }]")),

@@ -57,7 +57,7 @@ TEST_CASE("Setups that are no JSON name line and column") {
 
 TEST_CASE("Unknown and missing keys are named") {
   CHECK_THAT(error_with("/colour", 1),
-             Contains("setup.json:1:2: unknown key \"colour\"; expected \"backscatter\", "));
+             Contains("setup.json:1:2: unknown key \"colour\"; expected \"$schema\", \"backscatter\", "));
   CHECK_THAT(error_with("/sensors/0/focal_lenght_m", 1),
              EndsWith("/sensors/0: unknown key \"focal_lenght_m\", did you mean \"focal_length_m\"?"));
   CHECK_THAT(error_with("/sensors/0/pose", {{"nodee", "x"}}),

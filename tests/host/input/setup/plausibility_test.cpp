@@ -52,11 +52,12 @@ TEST_CASE("A focal length in millimetres, or a pitch, is told") {
   SetupFixture fixture;
   fixture.sensor()["focal_length_m"] = 10;
   const Setup setup = fixture.load();
-  REQUIRE(codes_of(setup) == Codes{"field-of-view"});
+  REQUIRE(codes_of(setup) == Codes{"unusual-value"}); // and no second one of what it sees
   CHECK_THAT(setup.warnings[0].place, Catch::EndsWith("setup.json: /sensors/0/focal_length_m"));
-  fixture.sensor()["resolution"] = {8, 8};
+  fixture.sensor()["focal_length_m"] = 1;
+  fixture.sensor()["pixel_pitch_m"] = {1e-5, 1e-5};
   CHECK(codes_of(fixture.load()) == Codes{"field-of-view"});
-  fixture.sensor()["focal_length_m"] = 1; // three pixels of a narrow view are a test of somebody
+  fixture.sensor()["resolution"] = {8, 8}; // three pixels of a narrow view are a test of somebody
   CHECK(fixture.load().warnings.empty());
 }
 

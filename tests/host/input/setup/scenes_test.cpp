@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 
 using namespace pmdsim;
@@ -19,7 +20,7 @@ struct Contents {
 
 } // namespace
 
-TEST_CASE("Every setup that ships loads without a warning") {
+TEST_CASE("Every setup that ships loads, and but for what Blender adds without a warning") {
   const std::map<std::string, Contents> expected = {
       {"paper_ring.json", {2, 240}},
       {"paper_half_ring.json", {2, 120}},
@@ -58,7 +59,13 @@ TEST_CASE("Every setup that ships loads without a warning") {
     const Setup setup = load_setup(entry.path());
     CHECK(setup.start.scene.triangles.size() == expected.at(name).triangles);
     CHECK(diode_count(setup.start.illuminators) == expected.at(name).diodes);
-    CHECK(setup.warnings.empty());
+    std::set<std::string> codes;
+    for (const Warning &warning : setup.warnings)
+      codes.insert(warning.code);
+    // Blender writes a coat and a specular colour for its plainest material, and a lamp that no pose names.
+    CHECK(codes == (name == "blender/moving.json"
+                        ? std::set<std::string>{"gltf-clearcoat", "gltf-lights", "gltf-specular"}
+                        : std::set<std::string>{}));
     ++found;
   }
   CHECK(found == expected.size());
