@@ -38,7 +38,7 @@ Mistake set(const std::string &change, const std::vector<std::string> &told, con
 Mistakes command_mistakes() {
   return {
       "Commands and operands",
-      {typed({}, {"expected a command", "\"render\""}, "`pmdsim check setup.json`, for a start"),
+      {typed({"help"}, {"unknown command \"help\"", "pmdsim --help"}, "`pmdsim --help`, or `pmdsim` alone"),
        typed({"rendr", "setup.json"}, {"unknown command \"rendr\"", "did you mean \"render\"?"}, "`render`"),
        typed({"Render", "setup.json"}, {"unknown command \"Render\"", "did you mean \"render\"?"},
              "`render`"),

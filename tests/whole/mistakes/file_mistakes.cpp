@@ -180,8 +180,9 @@ Mistakes table_mistakes() {
                     "3 to 16"),
            calibration("a setup for a calibration", "setup.json", good_setup(),
                        {"setup.json", "missing key", "image_size"}, "What OpenCV or ROS writes"),
-           calibration("a calibration in XML", "camera.xml", "<?xml version=\"1.0\"?>\n",
-                       {"camera.xml", "XML is not read, expected YAML or JSON"}, "Save it as YAML"),
+           calibration("a calibration in XML that is cut off", "camera.xml",
+                       "<?xml version=\"1.0\"?>\n<opencv_storage>\n", {"camera.xml:2:17", "not valid XML"},
+                       "Write it again"),
            calibration("a text that is no calibration", "notes.txt", "fx is 800\n",
                        {"notes.txt", "expected a calibration"}, "What OpenCV or ROS writes")}};
 }
