@@ -144,11 +144,11 @@ typedef struct pmdsim_render_options {
   double max_amplitude_error; /* likewise of amplitude, relative; 0: any */
   const char *precision;      /* of the sum over the diodes, "fp32" or "fp64"; NULL: chosen */
   const char *samples;        /* S of S x S samples a pixel, "1" to "16", or "auto"; NULL: the setup's */
-  const char *channels; /* names, separated by commas; NULL: all but those on demand, as "all", to which
-                         * "normals" and "rays" may be added. What only others need is not computed */
-  uint32_t paths;       /* of the reference, for each pixel where light bounces; 0: it chooses */
-  int strict;           /* a frame some of whose pixels may be off by more is PMDSIM_BAD_ACCURACY; other
-                         * warnings of the setup and of the frame are PMDSIM_BAD_INPUT */
+  const char *channels;       /* names, separated by commas; NULL: all but those on demand, as "all", to which
+                               * "normals" and "rays" may be added. What only others need is not computed */
+  uint32_t paths;             /* of the reference, for each pixel where light bounces; 0: it chooses */
+  int strict;                 /* a frame some of whose pixels may be off by more is PMDSIM_BAD_ACCURACY; other
+                               * warnings of the setup and of the frame are PMDSIM_BAD_INPUT */
   const char *output_precision; /* of distances, "float32" or "float64"; NULL: float32 */
 } pmdsim_render_options;
 

@@ -99,9 +99,8 @@ TEST_CASE("random boards have the deviations of linear theory within 2 %, in shi
 TEST_CASE("random boards have the deviations of linear theory within 2 %, in all shipped scenes", "[long]") {
   constexpr std::uint32_t boards = 20'000;
   print_heading(boards);
-  for (const char *scene :
-       {"paper_ring", "paper_half_ring", "bars", "room", "penumbra", "corner", "closed_box",
-        "light", "signal", "sensor", "motion", "electronics/kinect_v2_like", "electronics/opt8241_like",
-        "electronics/azure_kinect_like"})
+  for (const char *scene : {"paper_ring", "paper_half_ring", "bars", "room", "penumbra", "corner",
+                            "closed_box", "light", "signal", "sensor", "motion", "electronics/kinect_v2_like",
+                            "electronics/opt8241_like", "electronics/azure_kinect_like"})
     compare(scene, 4, boards);
 }
