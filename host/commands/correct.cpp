@@ -80,10 +80,10 @@ TruthFile truth_of(const Scenery &scenery, const std::function<void(double)> &pr
 struct CorrectedChannels {
   std::vector<float> range_m, x_m, y_m, z_m, correction_mm, normal_error_mm;
   std::vector<std::uint32_t> status;
+  std::vector<glm::vec3> normals; // world frame
   ChannelSet set;
 
-  CorrectedChannels(const CorrectedImage &corrected, const glm::uvec2 &resolution)
-      : status(corrected.status) {
+  CorrectedChannels(const CorrectedImage &corrected, const Sensor &sensor) : status(corrected.status) {
     for (std::size_t pixel = 0; pixel < status.size(); ++pixel) {
       const glm::dvec3 point_m = corrected.range_m[pixel] * corrected.ray[pixel];
       range_m.push_back(static_cast<float>(corrected.range_m[pixel]));
@@ -92,9 +92,10 @@ struct CorrectedChannels {
       z_m.push_back(static_cast<float>(point_m.z));
       correction_mm.push_back(static_cast<float>(1e3 * corrected.correction_m[pixel]));
       normal_error_mm.push_back(static_cast<float>(1e3 * corrected.normal_error_m[pixel]));
+      normals.emplace_back(sensor.world_from_camera.direction(corrected.normal[pixel]));
     }
     using Scale = ColourScale;
-    set = {resolution,
+    set = {sensor.resolution,
            {{"range_m",
              "m",
              std::span<const float>(range_m),
@@ -127,10 +128,10 @@ struct CorrectedChannels {
 
 std::vector<std::string> write(const CorrectedImage &corrected, const Scenery &scenery, const Setup &setup,
                                const Options &options, OutputSet &files) {
-  const auto channels = std::make_shared<const CorrectedChannels>(corrected, scenery.camera().resolution);
+  const auto channels = std::make_shared<const CorrectedChannels>(corrected, scenery.camera());
   const std::uint32_t frame = options.correct.frame;
-  const auto to_write = std::make_shared<const FrameToWrite>(
-      FrameToWrite{scenery.camera(), frame, setup.frames.time_s(frame), channels->set, channels});
+  const auto to_write = std::make_shared<const FrameToWrite>(FrameToWrite{
+      scenery.camera(), frame, setup.frames.time_s(frame), channels->set, channels, channels->normals});
   files.add(write_files(files.directory(), files_of(to_write, options.capture.formats)));
   throw_if_interrupted();
   files.publish();
@@ -231,13 +232,16 @@ std::string text_of(const Outcome &of) {
 } // namespace
 
 void run_correct(const Options &options) {
-  const CorrectOptions &wanted = options.correct;
+  CorrectOptions wanted = options.correct;
   const Setup setup = requested_setup(options.capture);
   require_names_for_files(setup.start.sensors);
   const Scenery scenery = scenery_of(setup, wanted);
   const MeasuredFile measured = read_measured(wanted.image, scenery.camera(), wanted.frame);
   std::vector<double> true_range_m = measured.range_m, lit = measured.lit;
   std::string truth = true_range_m.empty() ? "" : "range_m of the same file";
+  // Ranges that are means over several samples of a pixel are none of its centre.
+  if (wanted.truth.empty() && !true_range_m.empty() && scenery.camera().samples > 1)
+    wanted.truth = truth_of_scene;
   OutputSet files(options.capture.output_directory); // first, so that nothing is computed in vain
   ProgressBar bar(wanted.truth == truth_of_scene ? 2.0 : 1.0);
   if (!wanted.truth.empty()) {

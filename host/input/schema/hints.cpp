@@ -135,7 +135,7 @@ std::optional<std::string> meant_by(const std::array<Meaning, N> &meanings, std:
 
 // A key without its unit.
 std::string stem_of(std::string_view key) {
-  const std::string text = lower(key);
+  std::string text = lower(key);
   for (const auto &[ending, name] : units)
     if (text.ends_with(ending))
       return text.substr(0, text.size() - ending.size());

@@ -103,12 +103,11 @@ void append_kitti(const std::vector<std::string_view> &fields, const TextPlace &
   constexpr NumberRange range{-max_coordinate_m, max_coordinate_m};
   glm::dmat3 linear;
   glm::dvec3 position_m;
+  auto field = fields.begin();
   for (glm::length_t row = 0; row < 3; ++row)
-    for (glm::length_t column = 0; column < 4; ++column) {
-      const auto field = static_cast<std::size_t>(4 * row + column);
+    for (glm::length_t column = 0; column < 4; ++column)
       (column < 3 ? linear[column][row] : position_m[row]) =
-          number_of(fields[field], "a pose's matrix", place, range);
-    }
+          number_of(*field++, "a pose's matrix", place, range);
   const auto rotation = rotation_of(linear);
   bool is_rotation = rotation.has_value();
   for (glm::length_t axis = 0; is_rotation && axis < 3; ++axis)

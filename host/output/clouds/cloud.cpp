@@ -29,8 +29,10 @@ const Channel *first_of(const ChannelSet &channels, const std::string &quantity)
 }
 
 const Channel *distances_of_cloud(const ChannelSet &channels) {
-  const Channel *unwrapped = first_of(channels, "unwrapped_distance_m");
-  return unwrapped ? unwrapped : first_of(channels, "distance_m");
+  for (const char *quantity : {"unwrapped_distance_m", "distance_m", "range_m"})
+    if (const Channel *found = first_of(channels, quantity))
+      return found;
+  return nullptr;
 }
 
 PointCloud::PointCloud(const Sensor &sensor, const ChannelSet &channels)

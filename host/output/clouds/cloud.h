@@ -14,7 +14,7 @@
 namespace pmdsim {
 
 // The channel whose distances become points: unwrapped_distance_m, else distance_m of the first frequency
-// that has it; null where there is none.
+// that has it, else range_m, as of a corrected image; null where there is none.
 const Channel *distances_of_cloud(const ChannelSet &channels);
 // The first of that quantity, of whichever frequency; null where there is none.
 const Channel *first_of(const ChannelSet &channels, const std::string &quantity);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int picture_width = 820, picture_height = 660;
 constexpr Box whole{16.0, 48.0, picture_width - 32.0, picture_height - 96.0};
-constexpr int columns = picture_width - 32, rows = picture_height - 96;
+constexpr int cloud_columns = picture_width - 32, cloud_rows = picture_height - 96;
 constexpr Colour background{0.96, 0.96, 0.96};
 
 std::pair<double, double> on_canvas(const glm::dvec3 &place) {
@@ -53,7 +53,8 @@ std::string caption_of(const PointCloud &cloud) {
 } // namespace
 
 CloudPicture::CloudPicture(const PointCloud &cloud)
-    : cloud_(cloud), view_(cloud, {columns, rows}), colours_(std::size_t{columns} * rows, background) {
+    : cloud_(cloud), view_(cloud, {cloud_columns, cloud_rows}),
+      colours_(std::size_t{cloud_columns} * cloud_rows, background) {
   if (view_.has_points())
     fill();
 }
@@ -65,13 +66,14 @@ void CloudPicture::fill() {
   cloud_.for_each([&](std::size_t pixel, const glm::dvec3 &point_m) {
     const glm::dvec3 place = view_.place(point_m);
     const glm::dvec2 corner = glm::floor(glm::dvec2(place)) - std::floor(0.5 * side);
-    if (!(place.z > 0.0 && corner.x > -side && corner.y > -side && corner.x < columns && corner.y < rows))
+    if (!(place.z > 0.0 && corner.x > -side && corner.y > -side && corner.x < cloud_columns &&
+          corner.y < cloud_rows))
       return;
     const glm::ivec2 first(corner);
     const Colour colour = cloud_.colour(pixel);
-    for (int y = std::max(first.y, 0); y < std::min(first.y + side, rows); ++y)
-      for (int x = std::max(first.x, 0); x < std::min(first.x + side, columns); ++x)
-        if (const std::size_t at = static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x);
+    for (int y = std::max(first.y, 0); y < std::min(first.y + side, cloud_rows); ++y)
+      for (int x = std::max(first.x, 0); x < std::min(first.x + side, cloud_columns); ++x)
+        if (const std::size_t at = static_cast<std::size_t>(y) * cloud_columns + static_cast<std::size_t>(x);
             place.z < depths_m[at]) {
           depths_m[at] = place.z;
           colours_[at] = colour;
@@ -82,9 +84,10 @@ void CloudPicture::fill() {
 Canvas CloudPicture::draw(const std::string &title) const {
   Canvas canvas(picture_width, picture_height);
   canvas.title(whole.left, 22.0, title);
-  const SurfacePtr pixels = make_image({columns, rows}, [&](std::uint32_t column, std::uint32_t row) {
-    return colours_[std::size_t{row} * columns + column];
-  });
+  const SurfacePtr pixels =
+      make_image({cloud_columns, cloud_rows}, [&](std::uint32_t column, std::uint32_t row) {
+        return colours_[std::size_t{row} * cloud_columns + column];
+      });
   canvas.image(pixels.get(), whole);
   canvas.outline(whole);
   if (!view_.has_points()) {

@@ -1,5 +1,6 @@
 #include "host/output/clouds/ply_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -26,7 +27,7 @@ void append(std::string &bytes, Value value) {
 std::vector<const Channel *> scalars_of(const PointCloud &cloud) {
   std::vector<const Channel *> scalars;
   const auto add = [&](const Channel *channel) {
-    if (channel)
+    if (channel && std::ranges::find(scalars, channel) == scalars.end())
       scalars.push_back(channel);
   };
   add(first_of(cloud.channels(), "amplitude"));

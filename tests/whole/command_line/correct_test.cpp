@@ -75,16 +75,17 @@ TEST_CASE("a rendered frame comes back, from its directory and from each format"
 
 TEST_CASE("what is written and said") {
   const Rendered frame;
-  const Run run = frame.correct(frame.work / "frame", {"--format", "npy,png,csv"});
+  const Run run = frame.correct(frame.work / "frame", {"--format", "npy,ply,png,csv"});
   INFO(run.errors);
   REQUIRE(run.exit_code == 0);
   CHECK(run.output.find("corrected  64 of 64 pixels") != std::string::npos);
   CHECK(run.output.find("interior, corrected") != std::string::npos);
   CHECK(frame.work.files("corrected") ==
-        std::vector<std::string>{"pmd_0000.correction_mm.npy", "pmd_0000.correction_mm.png",
-                                 "pmd_0000.normal_error_mm.npy", "pmd_0000.profile.csv",
-                                 "pmd_0000.range_m.npy", "pmd_0000.range_m.png", "pmd_0000.status.npy",
-                                 "pmd_0000.x_m.npy", "pmd_0000.y_m.npy", "pmd_0000.z_m.npy"});
+        std::vector<std::string>{"pmd_0000.cloud.png", "pmd_0000.correction_mm.npy",
+                                 "pmd_0000.correction_mm.png", "pmd_0000.normal_error_mm.npy", "pmd_0000.ply",
+                                 "pmd_0000.profile.csv", "pmd_0000.range_m.npy", "pmd_0000.range_m.png",
+                                 "pmd_0000.status.npy", "pmd_0000.x_m.npy", "pmd_0000.y_m.npy",
+                                 "pmd_0000.z_m.npy"});
 }
 
 TEST_CASE("units, quantities and rows of numbers") {
