@@ -11,10 +11,14 @@
 namespace pmdsim {
 namespace {
 
+// Whoever asks for a target without a name gets the one with most to see.
+constexpr std::string_view any_target = "target", first_target = "star";
+
 std::vector<std::string> setup_kind_names() {
   std::vector<std::string> names;
   for (const StartKind &kind : start_kinds())
     names.emplace_back(kind.name);
+  names.emplace_back(any_target);
   return names;
 }
 
@@ -33,7 +37,8 @@ std::string kind_list() {
   std::string text = "Kinds:\n";
   for (const StartKind &kind : start_kinds())
     text += fmt::format("  {:<14}{}\n", kind.name, kind.about);
-  return text;
+  return text +
+         fmt::format("  {:<14}the {}; others are the wall, the step and so on\n", any_target, first_target);
 }
 
 } // namespace
@@ -61,14 +66,14 @@ void add_new(CLI::App &command, WrittenNew &written) {
 }
 
 NewSetup new_setup_of(const WrittenNew &written) {
-  const StartKind *kind = find_start_kind(written.kind);
+  const StartKind *kind = find_start_kind(written.kind == any_target ? first_target : written.kind);
   if (!kind)
     throw Error(
         ExitCode::usage,
         fmt::format("KIND: expected one of {}, found {}; a folder of another name comes behind it, as in "
                     "`pmdsim new room {}`",
                     fmt::join(setup_kind_names(), ", "), in_quotes(written.kind), written.kind));
-  return {kind, written.folder.empty() ? std::filesystem::path(kind->name) : written.folder,
+  return {kind, written.folder.empty() ? std::filesystem::path(written.kind) : written.folder,
           sizes_of(*kind, written.wishes), written.force};
 }
 

@@ -14,8 +14,8 @@ using nlohmann::json;
 
 namespace {
 
-const std::vector<std::string> kinds{"room", "ring",         "wall", "step",
-                                     "star", "checkerboard", "ball", "corner"};
+const std::vector<std::string> kinds{"room",         "ring", "wall",   "step",  "star",
+                                     "checkerboard", "ball", "corner", "target"};
 
 Run new_setup(const Workspace &work, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "new");
@@ -45,7 +45,7 @@ TEST_CASE("every kind of new setup is valid without a warning", "[smoke]") {
   const Workspace work;
   for (const std::string &kind : kinds) {
     const json made = made_json(new_setup(work, {kind, "--json"}));
-    CHECK(made["kind"] == kind);
+    CHECK(made["kind"] == (kind == "target" ? "star" : kind));
     CHECK(made["setup"] == kind + "/setup.json");
     for (const std::string file : made["outputs"])
       CHECK(std::filesystem::is_regular_file(work / file));
@@ -167,7 +167,7 @@ TEST_CASE("a folder that cannot be written is left as it is") {
 TEST_CASE("wrong command lines of new") {
   const Workspace work;
   check_refusal(new_setup(work, {"castle"}), 2, {"KIND", "castle", "room, ring", "pmdsim new room castle"});
-  check_refusal(new_setup(work, {"target"}), 2, {"KIND", "star, checkerboard"});
+  check_refusal(new_setup(work, {"plane"}), 2, {"KIND", "star, checkerboard"});
   check_refusal(new_setup(work, {"room", "--distance-m", "2"}), 2, {"--distance-m", "room"});
   check_refusal(new_setup(work, {"wall", "--spokes", "7"}), 2, {"--spokes", "wall"});
   check_refusal(new_setup(work, {"star", "--spokes", "1"}), 2, {"--spokes", "2 to 1000"});
