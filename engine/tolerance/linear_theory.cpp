@@ -2,6 +2,7 @@
 
 #include "engine/tolerance/diode_return.h"
 #include "engine/tolerance/few_diodes.h"
+#include "engine/tolerance/moments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,22 +18,16 @@ constexpr std::size_t dead_on_board = fault_count, first_product = dead_on_board
                       change_count = first_product + product_count;
 
 // A change's sums over the image.
-struct Sums {
-  double count = 0.0, sum = 0.0, squares = 0.0;
+struct Sums : Moments {
   double least = std::numeric_limits<double>::infinity(), most = -least;
 
   void add(double value) {
+    Moments::add(value);
     if (std::isnan(value))
       return;
-    count += 1.0;
-    sum += value;
-    squares += value * value;
     least = std::min(least, value);
     most = std::max(most, value);
   }
-  double mean() const { return sum / count; }
-  double mean_square() const { return squares / count; }
-  double variance() const { return std::max(0.0, mean_square() - mean() * mean()); }
   ImageChange change() const {
     if (count == 0.0)
       return {no_change, no_change, no_change, no_change};

@@ -2,6 +2,7 @@
 
 #include "engine/tolerance/board_work.h"
 #include "engine/tolerance/demodulation.h"
+#include "engine/tolerance/moments.h"
 #include "engine/tolerance/radiation.h"
 
 #include <algorithm>
@@ -159,23 +160,6 @@ double quantile(std::vector<double> &values, double share) {
   return std::lerp(values[below], values[above], place - static_cast<double>(below));
 }
 
-struct Moments {
-  double count = 0.0, sum = 0.0, squares = 0.0;
-
-  void add(double value) {
-    if (std::isnan(value))
-      return;
-    count += 1.0;
-    sum += value;
-    squares += value * value;
-  }
-  double mean() const { return sum / count; }
-  double mean_square() const { return squares / count; }
-  double variance() const {
-    return count > 1.0 ? std::max(0.0, squares - sum * sum / count) / (count - 1.0) : no_change;
-  }
-};
-
 // Each board's changes less their mean over its points.
 BoardChanges varying(BoardChanges changes) {
   for (std::size_t board = 0; board < changes.boards(); ++board) {
@@ -202,7 +186,7 @@ Found found(const BoardChanges &changes) {
     Moments of;
     for (std::size_t board = 0; board < changes.boards(); ++board)
       of.add(changes.at(board, i));
-    of_points.add(of.variance());
+    of_points.add(of.sample_variance());
     means_m.push_back(of.mean());
   }
   Moments of_boards;
@@ -213,7 +197,7 @@ Found found(const BoardChanges &changes) {
     of_boards.add(of.mean_square());
   }
   const double variance = of_points.mean();
-  return {std::sqrt(variance), 0.5 * std::sqrt(of_boards.variance() / of_boards.count) / variance};
+  return {std::sqrt(variance), 0.5 * std::sqrt(of_boards.sample_variance() / of_boards.count) / variance};
 }
 
 double most_rms_m(const BoardChanges &changes) {
@@ -270,7 +254,7 @@ std::vector<PointStatistics> point_statistics(const BoardChanges &changes) {
       if (!std::isnan(change_m))
         known_m.push_back(change_m);
     }
-    statistics.push_back({of.mean(), std::sqrt(of.variance()), quantile(known_m, 0.025),
+    statistics.push_back({of.mean(), std::sqrt(of.sample_variance()), quantile(known_m, 0.025),
                           quantile(known_m, 0.5), quantile(known_m, 0.975)});
   }
   return statistics;

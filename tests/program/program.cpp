@@ -135,6 +135,24 @@ std::string small_setup(const std::string &scene_file) {
 })";
 }
 
+std::string opencv_calibration() {
+  return R"(%YAML:1.0
+---
+image_width: 12
+image_height: 8
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 40., 0., 5.75, 0., 41., 3.25, 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 1
+   cols: 5
+   dt: d
+   data: [ -0.1, 0.02, 0.001, -0.002, 0. ]
+)";
+}
+
 std::string wall_gltf() {
   // Four corners (float32 x, y, z): (-0.2, -0.2, -2), (0.2, -0.2, -2), (0.2, 0.2, -2), (-0.2, 0.2, -2);
   // indices 0 1 2 0 2 3 as bytes.

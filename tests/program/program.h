@@ -73,6 +73,8 @@ std::string scene(const std::string &name);
 std::string small_setup(const std::string &scene_file = "wall.gltf");
 // That wall: 0.4 x 0.4 m at 2 m.
 std::string wall_gltf();
+// A camera of 12 x 8 pixels as OpenCV's FileStorage writes it, with some distortion.
+std::string opencv_calibration();
 // `text` with `from`, which must be in it, replaced by `to`.
 std::string with(std::string text, const std::string &from, const std::string &to);
 

@@ -50,22 +50,7 @@ std::vector<std::vector<std::string>> examples_of(const std::string &command) {
 
 // A folder in which `pmdsim new room` has been run, with what examples name beside it.
 void furnish(const Workspace &work) {
-  const std::string calibration = R"(%YAML:1.0
----
-image_width: 12
-image_height: 8
-camera_matrix: !!opencv-matrix
-   rows: 3
-   cols: 3
-   dt: d
-   data: [ 40., 0., 5.75, 0., 41., 3.25, 0., 0., 1. ]
-distortion_coefficients: !!opencv-matrix
-   rows: 1
-   cols: 5
-   dt: d
-   data: [ -0.1, 0.02, 0.001, -0.002, 0. ]
-)";
-  work.write("camera.yml", calibration);
+  work.write("camera.yml", opencv_calibration());
   work.write("camera_info.yaml", "width: 12\nheight: 8\ndistortion_model: ''\nd: []\n"
                                  "k: [40.0, 0.0, 5.5, 0.0, 40.0, 3.5, 0.0, 0.0, 1.0]\n");
   std::filesystem::create_directory_symlink(PMDSIM_SCENES, work.path() / "scenes");

@@ -12,22 +12,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char *opencv_yaml = R"(%YAML:1.0
----
-image_width: 12
-image_height: 8
-camera_matrix: !!opencv-matrix
-   rows: 3
-   cols: 3
-   dt: d
-   data: [ 40., 0., 5.75, 0., 41., 3.25, 0., 0., 1. ]
-distortion_coefficients: !!opencv-matrix
-   rows: 1
-   cols: 5
-   dt: d
-   data: [ -0.1, 0.02, 0.001, -0.002, 0. ]
-)";
-
 void check_refused(const std::vector<std::string> &arguments, int exit_code,
                    const std::vector<std::string> &fragments) {
   std::vector<std::string> all{"import-calibration"};
@@ -45,7 +29,7 @@ void check_text_refused(const std::string &text, const std::vector<std::string> 
 
 TEST_CASE("the printed sensor is one of a setup") {
   const Workspace work;
-  const std::string calibration = work.write("camera.yml", opencv_yaml);
+  const std::string calibration = work.write("camera.yml", opencv_calibration());
   for (const std::vector<std::string> &arguments :
        {std::vector<std::string>{"import-calibration", calibration},
         {"import-calibration", calibration, "--json"}}) {
@@ -95,8 +79,8 @@ roi: {x_offset: 0, y_offset: 0, height: 0, width: 0, do_rectify: false}
 
 TEST_CASE("pitch and name are the user's where given") {
   const Workspace work;
-  const Run run = run_pmdsim({"import-calibration", work.write("camera.yml", opencv_yaml), "--pixel-pitch-m",
-                              "45e-6", "--name", "left.1"});
+  const Run run = run_pmdsim({"import-calibration", work.write("camera.yml", opencv_calibration()),
+                              "--pixel-pitch-m", "45e-6", "--name", "left.1"});
   INFO(run.errors);
   REQUIRE(run.exit_code == 0);
   CHECK(run.errors.find("pitch") == std::string::npos);
@@ -115,7 +99,7 @@ TEST_CASE("calibrations that cannot be read end in one line") {
   check_text_refused("a: [1, 2", {"camera.yml:1:", "not valid YAML"});
   check_text_refused("a: 1", {"camera.yml", "missing key image_size"});
   check_text_refused(std::string(200'000, '['), {"camera.yml", "nested too deep"});
-  check_text_refused(with(opencv_yaml, "40., 0.,", "40., 1e-3,"),
+  check_text_refused(with(opencv_calibration(), "40., 0.,", "40., 1e-3,"),
                      {"camera.yml:5:1", "camera_matrix", "skew"});
 }
 
@@ -134,7 +118,7 @@ TEST_CASE("an alias bomb is not unrolled") {
 
 TEST_CASE("wrong command lines of import-calibration") {
   const Workspace work;
-  const std::string calibration = work.write("camera.yml", opencv_yaml);
+  const std::string calibration = work.write("camera.yml", opencv_calibration());
   check_refused({}, 2, {"FILE"});
   for (const char *pitch : {"0", "-1e-6", "nan", "inf", "wide"})
     check_refused({calibration, "--pixel-pitch-m", pitch}, 2, {"--pixel-pitch-m"});
