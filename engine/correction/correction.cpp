@@ -23,6 +23,9 @@ constexpr double settled_m = 2e-8, settled_noises = 1e-2;
 // An edge is where an uncertain normal moves the range by so much, and by so many times as much as in half of
 // all pixels, or where the normal is so uncertain.
 constexpr double least_edge_limit_m = 2e-6, edge_errors = 5.0, edge_rad = 0.1;
+// A pixel with fewer neighbours that are no edges is one: among facets of about a pixel planes fit by chance,
+// here and there. Where a surface's own corner ends the image, a pixel has so many.
+constexpr int least_neighbours = 3;
 // By then normals are so near that ranges change with them as they did before.
 constexpr std::uint32_t last_pass_of_sensitivity = 2;
 constexpr std::uint32_t rows_between_progress = 32;
@@ -98,6 +101,7 @@ private:
   void finish();
   void finish_pixel(std::size_t pixel);
   void mark_edges();
+  void mark_chance();
 
   const Sensor &sensor_;
   Lens lens_;
@@ -281,9 +285,33 @@ void Correction::mark_edges() {
       result_.status[at] = static_cast<std::uint32_t>(PixelStatus::edge);
 }
 
+void Correction::mark_chance() {
+  const std::vector<std::uint32_t> marked = result_.status;
+  const glm::ivec2 resolution(sensor_.resolution);
+  const auto is_interior = [&](int row, int column) {
+    return row >= 0 && row < resolution.y && column >= 0 && column < resolution.x &&
+           marked[pixel(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column))] ==
+               static_cast<std::uint32_t>(PixelStatus::corrected);
+  };
+  tbb::parallel_for(0, resolution.y, [&](int row) {
+    for (int column = 0; column < resolution.x; ++column) {
+      int neighbours = -1; // itself
+      for (int down = -1; down <= 1; ++down)
+        for (int across = -1; across <= 1; ++across)
+          neighbours += is_interior(row + down, column + across) ? 1 : 0;
+      if (is_interior(row, column) && neighbours < least_neighbours)
+        result_.status[pixel(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column))] =
+            static_cast<std::uint32_t>(PixelStatus::edge);
+    }
+  });
+}
+
 void Correction::finish() {
   tbb::parallel_for(std::size_t{0}, result_.range_m.size(), [&](std::size_t at) { finish_pixel(at); });
-  mark_edges();
+  if (!fits_.empty()) {
+    mark_edges();
+    mark_chance();
+  }
   for (const std::uint32_t status : result_.status)
     ++result_.counts[status];
 }

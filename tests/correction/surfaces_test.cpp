@@ -3,6 +3,7 @@
 #include "tests/correction/forward.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <random>
 
 using namespace pmdsim;
@@ -11,6 +12,24 @@ using namespace pmdsim::test;
 namespace {
 
 const Pattern third_order{.kind = Pattern::Kind::cosine, .order = 3.0};
+
+// An upright column of so many facets, about the point.
+SurfaceFormula prism(const glm::dvec3 &centre_m, double radius_m, int facets) {
+  return [=](const glm::dvec3 &ray) {
+    Met met{0.0, -ray};
+    double leaves_m = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < facets; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / facets;
+      const glm::dvec3 normal(std::sin(angle), 0.0, std::cos(angle));
+      const double range_m = (glm::dot(normal, centre_m) + radius_m) / glm::dot(normal, ray);
+      if (glm::dot(normal, ray) > 0.0)
+        leaves_m = std::min(leaves_m, range_m);
+      else if (range_m > met.range_m)
+        met = {range_m, normal};
+    }
+    return met.range_m < leaves_m ? met : Met{std::nan(""), -ray};
+  };
+}
 
 } // namespace
 
@@ -148,4 +167,18 @@ TEST_CASE("mixed pixels of an edge are marked") {
   CHECK(count(corrected, PixelStatus::corrected) > 60 * 60 / 2);
   CHECK(count(corrected, PixelStatus::edge) > 100);
   CHECK(largest_error_m(corrected, taken.range_m) < promised_m);
+}
+
+TEST_CASE("facets of about a pixel: a plane that fits by chance is marked") {
+  Sensor sensor = camera({80, 60}, 266.7);
+  sensor.samples = 2;
+  const std::vector<Illuminator> light{ring(0.05, 8, {}, {-0.2, 0.0, 0.0})};
+  for (const int facets : {36, 48, 60, 72}) {
+    const SurfaceFormula surface = both(prism({0, 0, 2.5}, 0.12, facets), wall({0, 0, 3}, {0.2, 0.1, -1}));
+    const Taken taken = take(sensor, light, surface);
+    const CorrectedImage corrected = correct(sensor, light, taken.image, {});
+    INFO(facets << " facets");
+    CHECK(count(corrected, PixelStatus::corrected) > taken.range_m.size() / 2); // the wall
+    CHECK(largest_error_m(corrected, taken.range_m) < promised_m);
+  }
 }
