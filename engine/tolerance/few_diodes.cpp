@@ -77,16 +77,19 @@ private:
 };
 
 // Over the points that are not dark.
-SetChanges mean_of(const std::vector<SetChanges> &changes, std::size_t errors) {
+SetChanges mean_of(const LitView &view, const std::vector<SetChanges> &changes, std::size_t errors) {
   SetChanges mean{0.0, std::vector<double>(errors, 0.0)};
   double count = 0.0;
-  for (const SetChanges &of : changes)
-    if (!std::isnan(of.of_set)) {
-      count += 1.0;
-      mean.of_set += of.of_set;
-      for (std::size_t i = 0; i < errors; ++i)
-        mean.of_errors[i] += of.of_errors[i];
-    }
+  for (std::size_t point = 0; point < changes.size(); ++point) {
+    const SetChanges &of = changes[point];
+    if (std::isnan(of.of_set))
+      continue;
+    const double weight = view.points[point].weight;
+    count += weight;
+    mean.of_set += weight * of.of_set;
+    for (std::size_t i = 0; i < errors; ++i)
+      mean.of_errors[i] += weight * of.of_errors[i];
+  }
   mean.of_set /= count;
   for (double &error : mean.of_errors)
     error /= count;
@@ -115,7 +118,7 @@ struct SetSums {
   double all() const { return dead() + errors / chance + products; }
 };
 
-void add_products(const Points &points, double variance, std::vector<SetSums> &sums,
+void add_products(const LitView &view, const Points &points, double variance, std::vector<SetSums> &sums,
                   std::vector<SetSums> &varying) {
   std::vector<std::vector<double>> changes(sums.size());
   std::vector<double> mean;
@@ -126,8 +129,8 @@ void add_products(const Points &points, double variance, std::vector<SetSums> &s
     changes[i] = points.products(i);
     mean.resize(changes[i].size());
     for (std::size_t k = 0; k < mean.size(); ++k)
-      mean[k] += changes[i][k];
-    lit += 1.0;
+      mean[k] += view.points[i].weight * changes[i][k];
+    lit += view.points[i].weight;
   }
   for (std::size_t i = 0; i < sums.size(); ++i)
     for (std::size_t k = 0; k < changes[i].size(); ++k) {
@@ -157,7 +160,7 @@ FewDiodes few_diodes(const LitView &view, const Tolerances &tolerances,
     std::vector<SetChanges> changes;
     for (std::size_t i = 0; i < sums.size(); ++i)
       changes.push_back(points.changes(i, dead));
-    const SetChanges mean = mean_of(changes, diodes * slope_count);
+    const SetChanges mean = mean_of(view, changes, diodes * slope_count);
     for (std::size_t i = 0; i < sums.size(); ++i)
       if (!std::isnan(changes[i].of_set)) {
         sums[i].add(chance, changes[i], nullptr, tolerances.error_variance());
@@ -166,7 +169,7 @@ FewDiodes few_diodes(const LitView &view, const Tolerances &tolerances,
     if (between)
       between((dead + 1.0) / sets);
   }
-  add_products(points, tolerances.error_variance(), sums, varying);
+  add_products(view, points, tolerances.error_variance(), sums, varying);
   FewDiodes result{};
   std::array<double, 4> squares{};
   double lit = 0.0;
@@ -176,10 +179,11 @@ FewDiodes few_diodes(const LitView &view, const Tolerances &tolerances,
     result.varying_deviation_m.push_back(is_lit ? std::sqrt(varying[i].all()) : no_change);
     if (!is_lit)
       continue;
-    lit += 1.0;
+    const double weight = view.points[i].weight;
+    lit += weight;
     const std::array of{sums[i].dead(), varying[i].dead(), sums[i].all(), varying[i].all()};
     for (std::size_t k = 0; k < of.size(); ++k)
-      squares[k] += of[k];
+      squares[k] += weight * of[k];
   }
   const auto rms = [&](std::size_t k) { return std::sqrt(squares[k] / lit); };
   result.dead = {rms(0), rms(1)};

@@ -21,8 +21,8 @@ constexpr std::size_t dead_on_board = fault_count, first_product = dead_on_board
 struct Sums : Moments {
   double least = std::numeric_limits<double>::infinity(), most = -least;
 
-  void add(double value) {
-    Moments::add(value);
+  void add(double value, double weight) {
+    Moments::add(value, weight);
     if (std::isnan(value))
       return;
     least = std::min(least, value);
@@ -116,27 +116,31 @@ using DiodeSums = std::array<Sums, change_count>;
 // What is found of the image, point by point in their order.
 class Image {
 public:
-  explicit Image(const LitView &view) : view_(view), diodes_(view.diodes.size()), shares_(diodes_.size()) {
+  explicit Image(const LitView &view)
+      : view_(view), diodes_(view.diodes.size()), shares_(diodes_.size()), left_dark_(diodes_.size()) {
     for (const TolerancedDiode &diode : view.diodes)
       illuminators_ = std::max<std::size_t>(illuminators_, diode.illuminator + 1);
     alike_.resize(illuminators_);
   }
 
-  void add(const PointChanges &changes) {
+  void add(const PointChanges &changes, double weight) {
     if (!changes.is_lit)
       return;
     ++lit_points_;
+    lit_weight_ += weight;
     std::vector<std::array<double, slope_count>> alike(illuminators_);
     for (std::size_t m = 0; m < diodes_.size(); ++m) {
-      shares_[m] += changes.light_share[m];
+      shares_[m] += weight * changes.light_share[m];
       for (std::size_t i = 0; i < change_count; ++i)
-        diodes_[m][i].add(changes.of_diode[m][i]);
+        diodes_[m][i].add(changes.of_diode[m][i], weight);
+      if (std::isnan(changes.of_diode[m][static_cast<std::size_t>(Fault::dead)]))
+        ++left_dark_[m];
       for (std::size_t i = 0; i < slope_count; ++i)
         alike[view_.diodes[m].illuminator][i] += changes.of_diode[m][i];
     }
     for (std::size_t light = 0; light < illuminators_; ++light)
       for (std::size_t i = 0; i < slope_count; ++i)
-        alike_[light][i].add(alike[light][i]);
+        alike_[light][i].add(alike[light][i], weight);
   }
 
   const Sums &of(std::size_t diode, std::size_t fault) const { return diodes_[diode][fault]; }
@@ -162,11 +166,10 @@ private:
                      std::array<double, kind_count + 1> &varying) const {
     DiodeEffect effect;
     const DiodeSums &sums = diodes_[m];
-    effect.light_share = shares_[m] / static_cast<double>(lit_points_);
+    effect.light_share = shares_[m] / lit_weight_;
     for (std::size_t i = 0; i < fault_count; ++i)
       effect.faults[i] = sums[i].change();
-    effect.left_dark =
-        lit_points_ - static_cast<std::size_t>(sums[static_cast<std::size_t>(Fault::dead)].count);
+    effect.left_dark = left_dark_[m];
     double own_squares = 0.0, own_varying = 0.0;
     for (std::size_t i = 0; i < change_count; ++i) {
       if (i == static_cast<std::size_t>(Fault::dead) || sums[i].count == 0.0)
@@ -189,7 +192,9 @@ private:
   const LitView &view_;
   std::vector<DiodeSums> diodes_;
   std::vector<double> shares_;
+  std::vector<std::size_t> left_dark_;
   std::size_t illuminators_ = 0, lit_points_ = 0;
+  double lit_weight_ = 0.0;
   std::vector<std::array<Sums, slope_count>> alike_;
 };
 
@@ -237,8 +242,9 @@ LinearTheory linear_theory(const LitView &view, const Tolerances &tolerances,
         between(done + 0.5 * fraction);
     };
   };
-  for_each_point(view, by, part_from(0.0),
-                 [&](std::size_t, const PointChanges &changes) { image.add(changes); });
+  for_each_point(view, by, part_from(0.0), [&](std::size_t i, const PointChanges &changes) {
+    image.add(changes, view.points[i].weight);
+  });
   LinearTheory theory = image.theory(by);
   if (view.diodes.size() <= most_few_diodes && theory.lit_points > 0) {
     FewDiodes few = few_diodes(view, tolerances, part_from(0.5));

@@ -35,6 +35,8 @@ struct LitPoint {
   glm::dvec3 position_m;
   glm::dvec3 normal; // unit length, turned to the lens
   double gain;       // reflectivity, times what vignetting leaves
+  double weight =
+      1.0; // of how many points of the image it is one: it counts for so many in all means over it
   // The diodes that reach it, as Measurement::sample_visibility has them; empty: all.
   std::vector<std::uint32_t> reached{};
 

@@ -164,10 +164,10 @@ double quantile(std::vector<double> &values, double share) {
 BoardChanges varying(BoardChanges changes) {
   for (std::size_t board = 0; board < changes.boards(); ++board) {
     Moments of;
-    double *const change_m = changes.change_m.data() + board * changes.points;
-    for (std::size_t i = 0; i < changes.points; ++i)
-      of.add(change_m[i]);
-    for (std::size_t i = 0; i < changes.points; ++i)
+    double *const change_m = changes.change_m.data() + board * changes.points();
+    for (std::size_t i = 0; i < changes.points(); ++i)
+      of.add(change_m[i], changes.weight[i]);
+    for (std::size_t i = 0; i < changes.points(); ++i)
       change_m[i] -= of.mean();
   }
   return changes;
@@ -182,18 +182,18 @@ struct Found {
 Found found(const BoardChanges &changes) {
   Moments of_points;
   std::vector<double> means_m;
-  for (std::size_t i = 0; i < changes.points; ++i) {
+  for (std::size_t i = 0; i < changes.points(); ++i) {
     Moments of;
     for (std::size_t board = 0; board < changes.boards(); ++board)
       of.add(changes.at(board, i));
-    of_points.add(of.sample_variance());
+    of_points.add(of.sample_variance(), changes.weight[i]);
     means_m.push_back(of.mean());
   }
   Moments of_boards;
   for (std::size_t board = 0; board < changes.boards(); ++board) {
     Moments of;
-    for (std::size_t i = 0; i < changes.points; ++i)
-      of.add(changes.at(board, i) - means_m[i]);
+    for (std::size_t i = 0; i < changes.points(); ++i)
+      of.add(changes.at(board, i) - means_m[i], changes.weight[i]);
     of_boards.add(of.mean_square());
   }
   const double variance = of_points.mean();
@@ -205,8 +205,8 @@ double most_rms_m(const BoardChanges &changes) {
   std::vector<double> rms_m;
   for (std::size_t board = 0; board < changes.boards(); ++board) {
     Moments of;
-    for (std::size_t i = 0; i < changes.points; ++i)
-      of.add(changes.at(board, i));
+    for (std::size_t i = 0; i < changes.points(); ++i)
+      of.add(changes.at(board, i), changes.weight[i]);
     if (of.count > 0.0)
       rms_m.push_back(std::sqrt(of.mean_square()));
   }
@@ -222,7 +222,9 @@ BoardChanges board_changes(const LitView &view, const Tolerances &tolerances, co
   const Boards of(view);
   const std::vector<std::complex<double>> nominal = of.returns(view.diodes);
   const double metres_per_radian = view.metres_per_turn() / radians_per_turn;
-  BoardChanges changes{view.points.size(), std::vector<double>(boards * view.points.size())};
+  BoardChanges changes{{}, std::vector<double>(boards * view.points.size())};
+  for (const LitPoint &point : view.points)
+    changes.weight.push_back(point.weight);
   const auto change = [&](std::uint32_t board) {
     std::vector<TolerancedDiode> diodes;
     diodes.reserve(view.diodes.size());
@@ -245,7 +247,7 @@ BoardChanges board_changes(const LitView &view, const Tolerances &tolerances, co
 
 std::vector<PointStatistics> point_statistics(const BoardChanges &changes) {
   std::vector<PointStatistics> statistics;
-  for (std::size_t i = 0; i < changes.points; ++i) {
+  for (std::size_t i = 0; i < changes.points(); ++i) {
     Moments of;
     std::vector<double> known_m;
     for (std::size_t board = 0; board < changes.boards(); ++board) {

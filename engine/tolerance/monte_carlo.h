@@ -12,14 +12,15 @@
 
 namespace pmdsim {
 
-// Changes of distance from the board without errors, m, wrapped to a period: `points` values for each board
-// in turn; NaN where no light returns from a point.
+// Changes of distance from the board without errors, m, wrapped to a period: a value of each point for each
+// board in turn; NaN where no light returns from a point.
 struct BoardChanges {
-  std::size_t points = 0;
+  std::vector<double> weight; // of each point, as LitPoint has it
   std::vector<double> change_m;
 
-  std::size_t boards() const { return points > 0 ? change_m.size() / points : 0; }
-  double at(std::size_t board, std::size_t point) const { return change_m[board * points + point]; }
+  std::size_t points() const { return weight.size(); }
+  std::size_t boards() const { return points() > 0 ? change_m.size() / points() : 0; }
+  double at(std::size_t board, std::size_t point) const { return change_m[board * points() + point]; }
 };
 
 // On TBB's threads; the same bits with any number of them. `between` is called by the calling thread now and

@@ -9,7 +9,7 @@
 namespace pmdsim {
 namespace {
 
-constexpr std::size_t most_points_with_boards = 100;
+constexpr double most_points_with_boards = 100.0;
 
 const Sensor &sensor_named(const Setup &setup, const std::string &name) {
   for (const Sensor &sensor : setup.start.sensors)
@@ -50,25 +50,44 @@ std::vector<StudiedDiode> diodes_of(const std::vector<Illuminator> &illuminators
   return diodes;
 }
 
-// Evenly chosen among the points that light returns from.
-std::vector<std::size_t> points_for_boards(const LinearTheory &theory) {
-  std::vector<std::size_t> lit, chosen;
+// Chosen among the points that light returns from. A few at rims of bodies and shadows may vary so much that
+// they rule the mean over the image. So half of the choice is even, and half goes by how much theory lets a
+// point vary. A point's weight is of how many it is one: each mean over all is the weighted mean of these.
+void choose_points(const LinearTheory &theory, RandomBoards &random) {
+  double lit = 0.0, squares_m2 = 0.0;
   for (std::size_t i = 0; i < theory.deviation_m.size(); ++i)
-    if (!std::isnan(theory.deviation_m[i]))
-      lit.push_back(i);
-  const std::size_t count = std::min(lit.size(), most_points_with_boards);
-  for (std::size_t i = 0; i < count; ++i)
-    chosen.push_back(lit[(2 * i + 1) * lit.size() / (2 * count)]);
-  return chosen;
+    if (!std::isnan(theory.deviation_m[i])) {
+      lit += 1.0;
+      squares_m2 += theory.varying_deviation_m[i] * theory.varying_deviation_m[i];
+    }
+  const bool is_few = lit <= most_points_with_boards;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < theory.deviation_m.size(); ++i) {
+    if (std::isnan(theory.deviation_m[i]))
+      continue;
+    const double varying_m = theory.varying_deviation_m[i],
+                 by_theory = squares_m2 > 0.0 ? varying_m * varying_m / squares_m2 : 1.0 / lit,
+                 share = is_few ? 1.0 : most_points_with_boards * (0.5 / lit + 0.5 * by_theory);
+    // Where the sum of shares passes a half, one and a half and so on.
+    const double times = std::floor(sum + share + 0.5) - std::floor(sum + 0.5);
+    sum += share;
+    if (times == 0.0)
+      continue;
+    random.points.push_back(i);
+    random.weights.push_back(times / share);
+  }
 }
 
 RandomBoards random_boards(const LitView &view, const LinearTheory &theory, const DiodeRequest &request,
                            const StudyProgress &progress) {
-  RandomBoards random{.boards = request.boards, .seed = request.seed, .points = points_for_boards(theory)};
+  RandomBoards random{.boards = request.boards, .seed = request.seed};
+  choose_points(theory, random);
   LitView part = view;
   part.points.clear();
-  for (const std::size_t point : random.points)
-    part.points.push_back(view.points[point]);
+  for (std::size_t i = 0; i < random.points.size(); ++i) {
+    part.points.push_back(view.points[random.points[i]]);
+    part.points.back().weight = random.weights[i];
+  }
   const LinearTheory here = linear_theory(part, request.tolerances);
   random.theory = here.board;
   random.theory_m = here.deviation_m;

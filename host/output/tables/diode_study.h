@@ -26,6 +26,7 @@ struct RandomBoards {
   std::uint32_t boards = 0;
   std::uint64_t seed = 0;
   std::vector<std::size_t> points{}; // their numbers
+  std::vector<double> weights{};     // of how many points of the image each is one
   // By kind, and all together: what theory says of these points, and what was found.
   BoardDeviation theory{};
   std::array<BoardStatistics, kind_count + 1> found{};

@@ -92,6 +92,7 @@ ordered_json pixel_rows(const DiodeStudy &study) {
     const PointStatistics &found = random.statistics[i];
     rows.push_back({{"column", pixel.x},
                     {"row", pixel.y},
+                    {"weight", random.weights[i]},
                     {"linear_deviation_um", um_per_m * random.theory_m[i]},
                     {"monte_carlo_deviation_um", um_per_m * found.deviation_m},
                     {"ratio", found.deviation_m / random.theory_m[i]},
