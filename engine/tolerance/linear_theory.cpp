@@ -42,6 +42,8 @@ struct PointChanges {
   bool is_lit = false;
   std::vector<std::array<double, change_count>> of_diode;
   std::vector<double> light_share;
+  // What two dead diodes do beyond what each does alone: the variance over boards, of all pairs.
+  double dead_pairs_m2 = 0.0;
 };
 
 class Theory {
@@ -70,6 +72,7 @@ public:
       changes.light_share.push_back(of.weight / light);
       changes.of_diode.push_back(changes_by(of, z));
     }
+    changes.dead_pairs_m2 = dead_pairs_m2(returns, z);
     return changes;
   }
 
@@ -105,6 +108,29 @@ private:
     return change;
   }
 
+  // Second differences of the change, all others at the mean of boards. Only diodes that give much of the
+  // light make any.
+  double dead_pairs_m2(const std::vector<DiodeReturn> &returns, const std::complex<double> &z) const {
+    constexpr double least_share = 0.02, rounding = 1e-12;
+    std::vector<std::complex<double>> large;
+    for (const DiodeReturn &of : returns)
+      if (std::abs(of.z) > least_share * std::abs(z))
+        large.push_back(of.z);
+    const double lives = 1.0 - tolerances_.dead, by_chance = tolerances_.dead * lives;
+    double squares = 0.0;
+    for (std::size_t m = 0; m < large.size(); ++m)
+      for (std::size_t i = 0; i < m; ++i) {
+        const std::complex<double> both_off = lives * (z - large[m] - large[i]), m_off = both_off + large[i],
+                                   i_off = both_off + large[m], on = m_off + large[m];
+        if (std::min({std::abs(both_off), std::abs(m_off), std::abs(i_off)}) <= rounding * std::abs(z))
+          continue;
+        const double difference = std::arg(both_off / on) - std::arg(m_off / on) - std::arg(i_off / on);
+        squares += difference * difference;
+      }
+    const double metres_per_radian = view_.metres_per_turn() / radians_per_turn;
+    return by_chance * by_chance * metres_per_radian * metres_per_radian * squares;
+  }
+
   const LitView &view_;
   const Tolerances &tolerances_;
   Demodulation demodulation_;
@@ -128,6 +154,7 @@ public:
       return;
     ++lit_points_;
     lit_weight_ += weight;
+    dead_pairs_m2_ += weight * changes.dead_pairs_m2;
     std::vector<std::array<double, slope_count>> alike(illuminators_);
     for (std::size_t m = 0; m < diodes_.size(); ++m) {
       shares_[m] += weight * changes.light_share[m];
@@ -151,6 +178,11 @@ public:
     std::array<double, kind_count + 1> squares{}, varying{};
     for (std::size_t m = 0; m < diodes_.size(); ++m)
       theory.diodes.push_back(effect(m, by, squares, varying));
+    for (const std::size_t kind : {static_cast<std::size_t>(Kind::dead), kind_count}) {
+      // Pairs differ from point to point: of an offset they make next to nothing.
+      squares[kind] += dead_pairs_m2_ / lit_weight_;
+      varying[kind] += dead_pairs_m2_ / lit_weight_;
+    }
     for (std::size_t kind = 0; kind <= kind_count; ++kind)
       theory.board[kind] = {std::sqrt(squares[kind]), std::sqrt(varying[kind])};
     for (const auto &sums : alike_) {
@@ -194,7 +226,7 @@ private:
   std::vector<double> shares_;
   std::vector<std::size_t> left_dark_;
   std::size_t illuminators_ = 0, lit_points_ = 0;
-  double lit_weight_ = 0.0;
+  double lit_weight_ = 0.0, dead_pairs_m2_ = 0.0;
   std::vector<std::array<Sums, slope_count>> alike_;
 };
 
@@ -202,7 +234,7 @@ private:
 double deviation_m(const PointChanges &changes, const Theory &by, const Image *image) {
   if (!changes.is_lit)
     return no_change;
-  double variance = 0.0;
+  double variance = changes.dead_pairs_m2;
   for (std::size_t m = 0; m < changes.of_diode.size(); ++m)
     for (std::size_t i = 0; i < change_count; ++i) {
       if (i == static_cast<std::size_t>(Fault::dead) || std::isnan(changes.of_diode[m][i]))

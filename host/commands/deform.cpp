@@ -129,12 +129,13 @@ std::shared_ptr<TakenPair> take_pair(Capture &capture, const SensorFrame &at, De
   return pair;
 }
 
-const std::array<std::pair<const char *, double DeformationStatistics::*>, 5> figures{
+const std::array<std::pair<const char *, double DeformationStatistics::*>, 6> figures{
     {{"mean", &DeformationStatistics::mean_mm},
      {"min", &DeformationStatistics::min_mm},
      {"max", &DeformationStatistics::max_mm},
      {"centre", &DeformationStatistics::centre_mm},
-     {"rms", &DeformationStatistics::rms_mm}}};
+     {"rms", &DeformationStatistics::rms_mm},
+     {"varying", &DeformationStatistics::varying_mm}}};
 
 ordered_json statistics_json(const DeformationStatistics &statistics) {
   ordered_json json;

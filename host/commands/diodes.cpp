@@ -33,7 +33,16 @@ Canvas draw_map(const DiodeStudy &study, const std::vector<double> &values_m, co
                       fmt::format("{}, {}, {}", what, study.sensor, frequency_text(study.modulation_hz)));
 }
 
-std::vector<std::string> write_files(OutputSet &files, const DiodeStudy &study) {
+// What the study is of, its figures aside.
+nlohmann::ordered_json head_of(const Setup &setup) {
+  return {{"program", "pmdsim"},
+          {"version", PMDSIM_VERSION},
+          {"command", "diodes"},
+          {"setup_file", setup.file.string()},
+          {"setup", setup.as_used}};
+}
+
+std::vector<std::string> write_files(OutputSet &files, const Setup &setup, const DiodeStudy &study) {
   const auto add = [&](const std::string &name, const auto &write) {
     throw_if_interrupted();
     files.add(name, write);
@@ -48,6 +57,14 @@ std::vector<std::string> write_files(OutputSet &files, const DiodeStudy &study) 
   });
   add("tolerance_map_varying.png", [&](OutputFile &file) {
     draw_map(study, study.theory.varying_deviation_m, "the same, less each board's offset").write_png(file);
+  });
+  add("study.txt", [&](OutputFile &file) {
+    file.write(fmt::format("{}\n\n{}", setup.file.string(), diode_study_text(study)));
+  });
+  add("study.json", [&](OutputFile &file) {
+    nlohmann::ordered_json json = head_of(setup);
+    json.update(diode_study_json(study));
+    file.write(json_text(json));
   });
   throw_if_interrupted();
   files.publish();
@@ -64,7 +81,7 @@ void run_diodes(const Options &options) {
          "light that bounces is left out, as errors of diodes are studied by the light that comes directly"});
   OutputSet files(options.capture.output_directory); // first, so that nothing is studied in vain
   const DiodeStudy study = studied(setup, options.diodes);
-  const std::vector<std::string> paths = write_files(files, study);
+  const std::vector<std::string> paths = write_files(files, setup, study);
   if (options.json) {
     nlohmann::ordered_json json = diode_study_json(study);
     json["outputs"] = paths;

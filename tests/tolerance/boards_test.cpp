@@ -197,3 +197,31 @@ TEST_CASE("a board without a diode that lives has no distance, and counts for no
   CHECK(statistics.rms_m == 0.0);
   CHECK(statistics.most_rms_m == 0.0);
 }
+
+TEST_CASE("a point of weight 3 counts as three points, in theory and on boards") {
+  for (const std::size_t diodes :
+       {std::size_t{11}, std::size_t{5}}) { // few diodes have a theory of their own
+    LitView weighted = small_view({cosine(3.0), cosine(1.0)});
+    weighted.diodes.resize(diodes);
+    LitView repeated = weighted;
+    weighted.points[1].weight = 3.0;
+    repeated.points.insert(repeated.points.end(), 2, repeated.points[1]);
+    const LinearTheory of_weights = linear_theory(weighted, {}), of_points = linear_theory(repeated, {});
+    for (std::size_t kind = 0; kind <= kind_count; ++kind) {
+      CHECK(of_weights.board[kind].rms_m == Approx(of_points.board[kind].rms_m).epsilon(1e-9));
+      CHECK(of_weights.board[kind].varying_rms_m ==
+            Approx(of_points.board[kind].varying_rms_m).epsilon(1e-9));
+    }
+    for (std::size_t m = 0; m < diodes; ++m)
+      CHECK(of_weights.diodes[m].light_share == Approx(of_points.diodes[m].light_share).epsilon(1e-9));
+    const auto on_boards = [](const LitView &view) {
+      return board_statistics(board_changes(view, {}, all_kinds, 300, 9));
+    };
+    const BoardStatistics by_weights = on_boards(weighted), by_points = on_boards(repeated);
+    CHECK(by_weights.rms_m == Approx(by_points.rms_m).epsilon(1e-9));
+    CHECK(by_weights.varying_rms_m == Approx(by_points.varying_rms_m).epsilon(1e-9));
+    CHECK(by_weights.most_rms_m == Approx(by_points.most_rms_m).epsilon(1e-9));
+    CHECK(by_weights.most_varying_rms_m == Approx(by_points.most_varying_rms_m).epsilon(1e-9));
+    CHECK(by_weights.standard_error == Approx(by_points.standard_error).epsilon(1e-9));
+  }
+}

@@ -52,8 +52,16 @@ DeformationStatistics statistics_of(std::span<const double> deformation_mm, cons
     min_mm = std::fmin(min_mm, value_mm);
     max_mm = std::fmax(max_mm, value_mm);
   }
-  return {mean.value(), min_mm, max_mm, std::sqrt(mean_square.value()),
-          centre_mm(deformation_mm, resolution)};
+  Mean varying_square;
+  for (const double value_mm : deformation_mm)
+    if (!std::isnan(value_mm))
+      varying_square.add((value_mm - mean.value()) * (value_mm - mean.value()));
+  return {mean.value(),
+          min_mm,
+          max_mm,
+          std::sqrt(mean_square.value()),
+          centre_mm(deformation_mm, resolution),
+          std::sqrt(varying_square.value())};
 }
 
 } // namespace pmdsim

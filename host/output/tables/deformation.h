@@ -17,7 +17,8 @@ std::vector<double> deformation_mm(std::span<const double> bistatic_distance_m,
 // Over the pixels that are not NaN; every figure is NaN where there is none.
 struct DeformationStatistics {
   double mean_mm, min_mm, max_mm, rms_mm;
-  double centre_mm; // mean of the middle 1, 2 or 4 pixels
+  double centre_mm;  // mean of the middle 1, 2 or 4 pixels
+  double varying_mm; // root mean square of what is left when the mean is taken away, as a calibration does
 };
 
 // `deformation_mm` is row-major, rows * columns values.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace pmdsim {
 namespace {
@@ -157,6 +158,31 @@ std::string dominating_text(const DiodeStudy &study) {
                      name(all), 100.0 * all.share, name(varying), 100.0 * varying.share);
 }
 
+// Where the whole formula says something else than theory.
+std::string not_linear_text(const DiodeStudy &study) {
+  constexpr double noted = 0.05, sure = 4.0;
+  std::vector<std::string> texts;
+  for (std::size_t kind = 0; kind < kind_count; ++kind) {
+    const double found = study.random.found[kind].rms_m, theory = study.random.theory[kind].rms_m;
+    const double off = std::abs(found / theory - 1.0);
+    if (um(theory) != "0" && off > std::max(noted, sure * study.random.found[kind].standard_error))
+      texts.push_back(fmt::format("{} ({})", kind_names[kind],
+                                  tolerance_text(static_cast<Kind>(kind), study.tolerances)));
+  }
+  return texts.empty()
+             ? ""
+             : fmt::format("For theory, which is linear, these errors are too large: {}. The random "
+                           "boards are right.\n",
+                           fmt::join(texts, ", "));
+}
+
+std::string no_axis_text(const DiodeStudy &study) {
+  const bool matters = study.theory.board[static_cast<std::size_t>(Kind::axis)].rms_m > 0.0;
+  return matters || study.tolerances.axis_rad == 0.0
+             ? ""
+             : "The diodes are isotropic: a tilt of an axis changes nothing.\n";
+}
+
 std::string dark_text(const DiodeStudy &study) {
   std::size_t diodes = 0, most = 0;
   for (const DiodeEffect &effect : study.theory.diodes) {
@@ -186,13 +212,13 @@ std::string diode_study_text(const DiodeStudy &study) {
       "Found: {} boards, seed {}, at {} of the pixels, with standard errors. 95 % of these boards: so much "
       "their "
       "root\nmean square over these pixels does not exceed.\n\n"
-      "{}\n{}\n{}{}",
+      "{}\n{}\n{}{}{}{}",
       study.sensor, 1e-6 * study.modulation_hz, study.diodes.size(), study.theory.lit_points, study.grid.x,
       study.grid.y, one_diode_text(study), board_text(study),
       is_gaussian ? " (Gaussian,\nthe tolerance is the standard deviation)"
                   : " (evenly\nwithin plus and minus the tolerance)",
       random.boards, random.seed, random.points.size(), alike_text(study), ranking_text(study),
-      dark_text(study), dominating_text(study));
+      no_axis_text(study), not_linear_text(study), dark_text(study), dominating_text(study));
 }
 
 } // namespace pmdsim

@@ -44,6 +44,7 @@ TEST_CASE("statistics leave pixels without a value out") {
   CHECK(statistics.min_mm == -3.0);
   CHECK(statistics.max_mm == 5.0);
   CHECK(statistics.rms_mm == Approx(3.0));
+  CHECK(statistics.varying_mm == Approx(std::sqrt(8.0)));
 }
 
 TEST_CASE("the centre is the mean of the middle 1, 2 or 4 pixels") {
@@ -61,4 +62,5 @@ TEST_CASE("statistics of nothing are NaN") {
   CHECK(std::isnan(statistics.max_mm));
   CHECK(std::isnan(statistics.rms_mm));
   CHECK(std::isnan(statistics.centre_mm));
+  CHECK(std::isnan(statistics.varying_mm));
 }

@@ -45,15 +45,22 @@ TEST_CASE("diodes writes tables and pictures, and says the same for people and s
   const std::string setup = written_setup(work);
   const json report = study(work, setup);
   CHECK(work.files("out") == std::vector<std::string>{"alike.csv", "board.csv", "diodes.csv", "diodes.png",
-                                                      "pixels.csv", "tolerance_map.png",
-                                                      "tolerance_map_varying.png"});
-  CHECK(report["outputs"].size() == 7);
+                                                      "pixels.csv", "study.json", "study.txt",
+                                                      "tolerance_map.png", "tolerance_map_varying.png"});
+  CHECK(report["outputs"].size() == 9);
   CHECK(report["diodes"].size() == 16);
   CHECK(lines_of(work / "out/diodes.csv") == 17);
   CHECK(lines_of(work / "out/board.csv") == 7);
   CHECK(lines_of(work / "out/alike.csv") == 8);
   CHECK(lines_of(work / "out/pixels.csv") == 1 + static_cast<std::ptrdiff_t>(report["boards_pixels"]));
+  const json file = json::parse(text_of_file(work / "out/study.json"));
+  CHECK(file["setup"]["sensors"][0]["name"] == "pmd");
+  CHECK(file["board"] == report["board"]);
   const Run people = run_pmdsim({"diodes", setup, "-o", work / "out", "--boards", "200"});
+  const std::string text = text_of_file(work / "out/study.txt");
+  CHECK(text.starts_with(setup + "\n\nsensor pmd at 20 MHz"));
+  CHECK(people.output.starts_with(text.substr(text.find("sensor pmd"))));
+  CHECK(text.find("The diodes are isotropic") != std::string::npos);
   CHECK(people.exit_code == 0);
   CHECK(people.errors.empty());
   for (const char *text : {"16 diodes", "dead", "all of these", "diodes that matter most",
@@ -157,4 +164,22 @@ TEST_CASE("a setup without light that returns is refused, and leaves nothing beh
   check_refusal(run_pmdsim({"diodes", written_setup(work, away), "-o", work / "out"}), 3,
                 {"setup.json: sensor pmd: expected pixels that light returns to"});
   CHECK(!std::filesystem::exists(work / "out"));
+}
+
+TEST_CASE("random boards stand for the image where few pixels, at the rim of a ball, rule it") {
+  const Workspace work;
+  REQUIRE(run_pmdsim({"new", "ball", work / "ball"}).exit_code == 0);
+  for (const char *pixels : {"64", "110", "160"}) {
+    const json report = study(work, work / "ball/setup.json", {"--pixels", pixels});
+    INFO(pixels << " pixels");
+    CHECK(report["boards_pixels"] > 80);
+    CHECK(report["boards_pixels"] <= 100);
+    for (const json &row : report["board"]) {
+      INFO(row["errors"]);
+      CHECK(row["linear_rms_there_um"].get<double>() ==
+            Catch::Detail::Approx(row["linear_rms_um"].get<double>()).epsilon(0.15));
+      CHECK(row["linear_varying_rms_there_um"].get<double>() ==
+            Catch::Detail::Approx(row["linear_varying_rms_um"].get<double>()).epsilon(0.15));
+    }
+  }
 }
