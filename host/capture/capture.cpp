@@ -159,8 +159,8 @@ Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &
                  const WantedChannels &measured, const std::shared_ptr<Camera> &camera, bool keep_unrounded)
     : setup_(measurable(request, std::move(setup))), frames_(frames_to_write(request, setup_)),
       formats_(request.formats), channels_(request.channels), accuracy_(request.accuracy),
-      exposures_(setup_, camera, keep_taps, request.accuracy, request.paths, measured,
-                 keep_unrounded || request.output_precision == OutputPrecision::float64),
+      part_(request.part), exposures_(setup_, camera, keep_taps, request.accuracy, request.paths, measured,
+                                      keep_unrounded || request.output_precision == OutputPrecision::float64),
       sequence_(setup_,
                 {frames_, request.output_directory,
                  request.resume ? RunFolder::Earlier::kept : RunFolder::Earlier::made_again,
@@ -188,7 +188,7 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
 void Capture::write(const FrameSequence::Measure &measure, std::size_t part_bytes,
                     double exposures_of_sample) {
   const double work_of_frame = exposures_of_sample * samples_of_frame(setup_);
-  bar_.emplace(sequence_.begin() * work_of_frame);
+  bar_.emplace(sequence_.begin() * work_of_frame, part_);
   const auto measure_next = [&](const SensorFrame &at) {
     if (at.sensor == 0)
       bar_->reach(at.frames_done * work_of_frame);

@@ -30,6 +30,7 @@ struct CaptureRequest {
   Shard shard;                      // of these
   std::filesystem::path output_directory;
   bool resume = false; // frames that are whole there stay
+  ProgressPart part{}; // of the command's work
   std::set<Format> formats;
   WantedChannels channels;
   OutputPrecision output_precision = OutputPrecision::float32;
@@ -100,6 +101,7 @@ private:
   std::set<Format> formats_;
   WantedChannels channels_;
   Accuracy accuracy_; // asked for
+  ProgressPart part_;
   Exposures exposures_;
   FrameSequence sequence_;
   std::optional<ProgressBar> bar_; // while it writes

@@ -49,6 +49,8 @@ std::uint32_t FrameSequence::begin() {
   if (!folder_->has_locks())
     warn({warning_code("no-locks"), request_.directory.string(),
           "its file system has no locks, no other process may write there"});
+  if (const RunFolder::Left &left = folder_->left(); left.frames > 0)
+    warn(left_warning(left));
   const std::vector<std::uint32_t> recorded = recorded_frames(request_.directory);
   for (std::uint32_t i = 0; i < request_.frames.count(); ++i)
     if (const std::uint32_t frame = request_.frames.at(i);
@@ -59,6 +61,15 @@ std::uint32_t FrameSequence::begin() {
     for (const Sensor &sensor : setup_.start.sensors)
       remove_sheets(request_.directory, sensor.name);
   return to_do_at_start_;
+}
+
+Warning FrameSequence::left_warning(const RunFolder::Left &left) const {
+  const std::string why = left.difference.empty() ? "" : fmt::format(" ({})", left.difference);
+  return {
+      warning_code("earlier-frames-left"), request_.directory.string(),
+      fmt::format("{} frame{} of another run{} {} there as files that the manifest does not list; another "
+                  "-o keeps runs apart",
+                  left.frames, left.frames == 1 ? "" : "s", why, left.frames == 1 ? "stays" : "stay")};
 }
 
 void FrameSequence::write(const Measure &measure, std::size_t part_bytes) {

@@ -98,6 +98,7 @@ private:
   std::optional<std::uint32_t> next_after(std::uint32_t frame) const;
   void add(WrittenPart part);
   void publish();
+  Warning left_warning(const RunFolder::Left &left) const;
   std::string whole_text() const;
   std::size_t sensor_count() const { return setup_.start.sensors.size(); }
 

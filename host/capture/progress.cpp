@@ -55,10 +55,11 @@ void throw_if_interrupted() {
     throw Error(ExitCode::interrupted, "interrupted");
 }
 
-ProgressBar::ProgressBar(double work) : work_(work), on_terminal_(::isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(double work, ProgressPart part)
+    : work_(work), part_(std::move(part)), on_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
-  if (on_terminal_ && last_shown_)
+  if (on_terminal_ && part_.clock->last_shown)
     std::fputs(clear_line, stderr);
 }
 
@@ -74,18 +75,20 @@ void ProgressBar::begin(std::string label, double work) {
 }
 
 void ProgressBar::update(double fraction) {
-  const auto now = Clock::now();
-  if (on_terminal_ ? last_shown_ && now - *last_shown_ < interval_of_bar
-                   : now - last_shown_.value_or(start_) < interval_of_lines)
+  ProgressClock &clock = *part_.clock;
+  const auto now = ProgressClock::Clock::now();
+  if (on_terminal_ ? clock.last_shown && now - *clock.last_shown < interval_of_bar
+                   : now - clock.last_shown.value_or(clock.start) < interval_of_lines)
     return;
-  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  const double share = (done_ + fraction * step_) / work_;
+  const double elapsed_s = std::chrono::duration<double>(now - clock.start).count();
+  const double share = (static_cast<double>(part_.index) + (done_ + fraction * step_) / work_) /
+                       static_cast<double>(part_.count);
   const std::string text = on_terminal_
                                ? fmt::format("{}{} {}", clear_line, label_, progress_text(share, elapsed_s))
                                : progress_line(label_, share, elapsed_s);
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
-  last_shown_ = now;
+  clock.last_shown = now;
 }
 
 std::function<void(double)> interruptible_progress(ProgressBar &bar) {

@@ -4,7 +4,9 @@
 // point, so that destructors clean up.
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -16,13 +18,26 @@ void stop_on_signals();
 // Throws Error (interrupted) where a signal has come.
 void throw_if_interrupted();
 
+// When a work began, and when it was last told of.
+struct ProgressClock {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start = Clock::now();
+  std::optional<Clock::time_point> last_shown{};
+};
+
+// Which of several like parts of a work a bar is of; they have a clock in common.
+struct ProgressPart {
+  std::size_t index = 0, count = 1;
+  std::shared_ptr<ProgressClock> clock = std::make_shared<ProgressClock>();
+};
+
 // A bar of a command's steps, one after the other. It is shown from the first update on, and cleared when it
 // dies. Where stderr is no terminal it is a line a minute, from the first minute's end on. Debian 12 has no
 // library for it.
 class ProgressBar {
 public:
-  // `work` is that of all steps together, in any unit.
-  explicit ProgressBar(double work);
+  // `work` is that of all steps together, in any unit, of the part.
+  explicit ProgressBar(double work, ProgressPart part = {});
   ~ProgressBar();
   ProgressBar(const ProgressBar &) = delete;
   ProgressBar &operator=(const ProgressBar &) = delete;
@@ -35,13 +50,10 @@ public:
   void update(double fraction);
 
 private:
-  using Clock = std::chrono::steady_clock;
-
   std::string label_;
   double work_, done_ = 0.0, step_ = 0.0; // of all steps, of those before the current one, of the current one
+  ProgressPart part_;
   bool on_terminal_;
-  Clock::time_point start_ = Clock::now();
-  std::optional<Clock::time_point> last_shown_;
 };
 
 // For what reports its progress: updates the bar and throws Error (interrupted) once a signal has come. `bar`

@@ -46,6 +46,7 @@ json json_of_line(std::string_view line, std::size_t lines_before, const std::fi
 } // namespace
 
 json changes_for(const PosesFromFile &poses, const SetupDocument &document) {
+  read_front_of_regular_file(poses.file, 0, Place{poses.file}); // an error has the name as it was given
   const json trajectory{
       {"trajectory",
        std::filesystem::proximate(poses.file, document.folder.empty() ? "." : document.folder).string()}};

@@ -24,7 +24,8 @@ struct PosesFromFile {
   std::filesystem::path file;
 };
 
-// The changes that make a document's sensor, illuminator or node move along them.
+// The changes that make a document's sensor, illuminator or node move along them. Throws Error (input) where
+// there is no such file.
 nlohmann::json changes_for(const PosesFromFile &poses, const SetupDocument &document);
 
 // A line of a file of variants.

@@ -44,7 +44,7 @@ double end_s(const FrameTimes &frames) { return frames.time_s(frames.count - 1);
 
 ordered_json frames_json(const FrameTimes &frames) {
   return {{"start_s", frames.start_s},
-          {"rate_hz", frames.count > 1 ? ordered_json(frames.rate_hz) : nullptr},
+          {"rate_hz", frames.count > 1 && frames.times_s.empty() ? ordered_json(frames.rate_hz) : nullptr},
           {"count", frames.count},
           {"span_s", end_s(frames) - frames.start_s}};
 }
@@ -164,8 +164,10 @@ std::string sensor_text(const SensorFindings &findings) {
 std::string frames_text(const FrameTimes &frames) {
   if (frames.count == 1)
     return fmt::format("1, at {:.6g} s", frames.start_s);
-  return fmt::format("{} at {:.6g} Hz, from {:.6g} s to {:.6g} s", frames.count, frames.rate_hz,
-                     frames.start_s, end_s(frames));
+  const std::string when =
+      frames.times_s.empty() ? fmt::format("{:.6g} Hz", frames.rate_hz) : "the times of the poses";
+  return fmt::format("{} at {}, from {:.6g} s to {:.6g} s", frames.count, when, frames.start_s,
+                     end_s(frames));
 }
 
 std::string light_text(const LightFindings &light) {

@@ -232,6 +232,7 @@ void fill(const SceneSource &source, GltfScene scene, const Place &root, Traject
   warn(source, root, setup);
   if ((source.gltf && source.gltf->moves()) || has_trajectory(setup.as_used))
     setup.motion = std::make_shared<const Motion>(source.at, std::move(trajectories), setup.as_used, root);
+  std::ranges::copy(light_left_behind(setup, root), std::back_inserter(setup.warnings));
 }
 
 constexpr const char *given_scene = "(given)"; // as the setup's "scene"

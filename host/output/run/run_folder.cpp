@@ -128,6 +128,8 @@ bool RunFolder::enter_alone(ByteLocks there, const FrameRange &frames, Earlier e
                                                    : fmt::format("its {} cannot be read", run_file_name)));
   std::optional<ByteLocks> mine = new_run_file(true);
   clear(same_run, frames, earlier);
+  if (left_.frames > 0 && found)
+    left_.difference = difference_text(found->run, run_);
   settle(std::move(*mine));
   return true;
 }
@@ -170,12 +172,13 @@ void RunFolder::settle(ByteLocks mine) {
   locks_ = std::move(mine);
 }
 
-void RunFolder::clear(bool same_run, const FrameRange &frames, Earlier earlier) const {
+void RunFolder::clear(bool same_run, const FrameRange &frames, Earlier earlier) {
   bool any = !same_run;
   for (const std::uint32_t frame : recorded_frames(path()))
     if (!same_run || (earlier == Earlier::made_again && frames.contains(frame))) {
       remove_file(path() / record_name(frame));
       any = true;
+      left_.frames += frame >= frames.end || frame + frames.step <= frames.first ? 1 : 0;
     }
   if (any)
     remove_file(path() / manifest_name);

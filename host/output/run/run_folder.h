@@ -43,6 +43,13 @@ public:
   const RunIdentity &run() const { return run_; }
   bool is_joined() const { return joined_; }         // others were there
   bool has_locks() const { return locks_->works(); } // else this process must be the only one
+  // Frames of an earlier run of another kind that `frames` do not reach: their files stay, and nothing tells
+  // of them any more.
+  struct Left {
+    std::size_t frames = 0;
+    std::string difference{}; // from that run
+  };
+  const Left &left() const { return left_; }
   // The frame's record, where it is whole.
   std::optional<nlohmann::ordered_json> whole(std::uint32_t frame) const;
 
@@ -67,7 +74,7 @@ private:
   bool enter_beside_others(ByteLocks there);
   std::optional<ByteLocks> new_run_file(bool replacing) const;
   void settle(ByteLocks mine);
-  void clear(bool same_run, const FrameRange &frames, Earlier earlier) const;
+  void clear(bool same_run, const FrameRange &frames, Earlier earlier);
   void remove_leftovers() const;
   void lock_manifest(const std::function<void()> &wait);
   std::size_t write_manifest(const std::function<void()> &wait);
@@ -79,6 +86,7 @@ private:
   bool strict_;
   std::optional<ByteLocks> locks_; // of run.json
   bool joined_ = false, has_manifest_ = false;
+  Left left_;
 };
 
 } // namespace pmdsim

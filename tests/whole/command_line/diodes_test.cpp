@@ -57,10 +57,10 @@ TEST_CASE("diodes writes tables and pictures, and says the same for people and s
   CHECK(file["setup"]["sensors"][0]["name"] == "pmd");
   CHECK(file["board"] == report["board"]);
   const Run people = run_pmdsim({"diodes", setup, "-o", work / "out", "--boards", "200"});
-  const std::string text = text_of_file(work / "out/study.txt");
-  CHECK(text.starts_with(setup + "\n\nsensor pmd at 20 MHz"));
-  CHECK(people.output.starts_with(text.substr(text.find("sensor pmd"))));
-  CHECK(text.find("The diodes are isotropic") != std::string::npos);
+  const std::string written = text_of_file(work / "out/study.txt");
+  CHECK(written.starts_with(setup + "\n\nsensor pmd at 20 MHz"));
+  CHECK(people.output.starts_with(written.substr(written.find("sensor pmd"))));
+  CHECK(written.find("The diodes are isotropic") != std::string::npos);
   CHECK(people.exit_code == 0);
   CHECK(people.errors.empty());
   for (const char *text : {"16 diodes", "dead", "all of these", "diodes that matter most",

@@ -3,8 +3,10 @@
 #include "tests/program/program.h"
 #include "tests/whole/command_line/run_fixture.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -148,6 +150,84 @@ TEST_CASE("A shard of variants") {
   REQUIRE(small.render({small.setup, "--variants", variants, "-o", small.work / "none", "--shard", "7/9"})
               .exit_code == 0);
   CHECK_FALSE(std::filesystem::exists(small.work / "none/table.7-of-9.csv"));
+}
+
+TEST_CASE("Another study is kept out of the folder, and an interrupted one tells how far it came") {
+  const Small small;
+  std::string lines, others;
+  for (int i = 1; i <= 60; ++i) {
+    lines += fmt::format("{{\"illuminators/0/intensity_w_sr\": {}}}\n", i);
+    others += fmt::format("{{\"illuminators/0/intensity_w_sr\": {}}}\n", i + 100);
+  }
+  const std::string variants = small.work.write("variants.jsonl", lines),
+                    other = small.work.write("other.jsonl", others);
+  const auto arguments = [&](const std::string &file) {
+    return std::vector<std::string>{
+        "render", small.setup,        "--variants", file, "--set", "sensors/0/resolution=[400, 400]",
+        "-o",     small.work / "out", "--format",   "npy"};
+  };
+  RunningPmdsim running(arguments(variants));
+  wait_for(small.work / "out/0001/manifest.json");
+  const Run refused = run_pmdsim(arguments(other));
+  CHECK(refused.exit_code == 7);
+  CHECK(refused.errors.find("out: another run is being written there") != std::string::npos);
+  CHECK(refused.errors.find("the setup differs at /illuminators/0/intensity_w_sr: 1 there, 101 here") !=
+        std::string::npos);
+  running.send(SIGINT);
+  const Run interrupted = running.wait();
+  CHECK(interrupted.exit_code == 130);
+  CHECK(interrupted.errors.find(" of 60 variants are whole and stay, --resume goes on") != std::string::npos);
+  CHECK(std::ranges::count(interrupted.errors, '\n') == 1);
+  CHECK_FALSE(std::filesystem::exists(small.work / "out/run.json"));
+}
+
+TEST_CASE("Noise that all variants have in common is told of") {
+  const Small small;
+  const std::string noise =
+      R"(sensors/0/electronics={"preset": "kinect_v2_like", "integration_time_s": 1e-3, "lens_f_number": 1.1})";
+  const auto output = [&](const std::string &lines) {
+    const Run run = small.render({small.setup, "--set", noise, "--variants",
+                                  small.work.write("variants.jsonl", lines), "-o", small.work / "out"});
+    INFO(run.errors);
+    REQUIRE(run.exit_code == 0);
+    return run.output;
+  };
+  const std::string told = "The noise of all variants is the same";
+  CHECK(output("{}\n{}\n").find(told) != std::string::npos);
+  CHECK(output("{\"sensors/0/electronics/seed\": 1}\n{\"sensors/0/electronics/seed\": 2}\n").find(told) ==
+        std::string::npos);
+}
+
+TEST_CASE("Frames of another run that stay in a folder are told of") {
+  const Small small;
+  const std::string frames = R"(frames={"count": 3, "rate_hz": 1})";
+  REQUIRE(small.render({small.setup, "--set", frames, "-o", small.work / "out"}).exit_code == 0);
+  const Run again = small.render({small.setup, "--set", frames, "-o", small.work / "out"});
+  CHECK(again.errors.empty()); // the same
+  const Run other = small.render({small.setup, "-o", small.work / "out"});
+  CHECK(other.exit_code == 0);
+  CHECK(other.errors.find("warning: " + small.work / "out" +
+                          ": 2 frames of another run (the setup differs at /frames") != std::string::npos);
+  CHECK(other.errors.find("[earlier-frames-left]") != std::string::npos);
+}
+
+TEST_CASE("A camera that moves away from its light is told of") {
+  const Small small;
+  const std::string poses =
+      small.work.write("poses.tum", "0.0 0 0 0 1 0 0 0\n0.5 0 0 -0.5 1 0 0 0\n1 0 0 -1 1 0 0 0\n");
+  const auto check = [&](const std::string &light) {
+    return run_pmdsim({"check", small.setup, "--set", "illuminators/0/pose=" + light, "--poses", poses});
+  };
+  const Run beside = check(R"({"position_m": [0, 0, 0], "look_at_m": [0, 0, -1]})");
+  CHECK(beside.errors.find("[light-left-behind]") != std::string::npos);
+  CHECK(beside.output.find("3 at the times of the poses, from 0 s to 1 s") != std::string::npos);
+  CHECK(check(R"({"position_m": [0, 2, 0], "look_at_m": [0, 0, -2]})").errors.find("left-behind") ==
+        std::string::npos); // a lamp of the room
+  CHECK(check(R"({"sensor": "pmd"})").errors.find("left-behind") == std::string::npos);
+  const Run absent = run_pmdsim({"check", small.setup, "--poses", small.work / "pose.tum"});
+  CHECK(absent.exit_code == 3);
+  CHECK(absent.errors.find(small.work / "pose.tum" + ": no such file, did you mean \"poses.tum\"?") !=
+        std::string::npos);
 }
 
 TEST_CASE("Frames along the poses of a file") {
