@@ -12,10 +12,15 @@ whole. The dead worker's program may still be at work then: two that write into 
 
 import argparse
 import subprocess
+import sys
 from pathlib import Path
 
-import dask
-from distributed import Client, LocalCluster, as_completed
+try:
+    import dask
+    from distributed import Client, LocalCluster, as_completed
+except ImportError as missing:
+    if not {"-h", "--help"} & set(sys.argv):
+        sys.exit(f"{Path(sys.argv[0]).name}: expected the packages dask and distributed: {missing}")
 
 
 def arguments():

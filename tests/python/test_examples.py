@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
+import os
 import re
 import subprocess
 import sys
 import tempfile
+import textwrap
 import unittest
 from pathlib import Path
 
@@ -69,6 +72,25 @@ class Examples(unittest.TestCase):
                 self.assertRegex(errors, f"^random_views.py: {folder}: .* other parameters: .*\n$")
             (views / "parameters.json").unlink()
             self.assertIn("unknown", refused("random_views.py", "-o", folder, "--count", "5", "--binning", "16"))
+
+    def test_training_pairs_of_the_documents(self) -> None:
+        page = (examples.parents[2] / "docs" / "howto.md").read_text()
+        block = page.split("## Make noisy and clean pairs for training\n\n")[1].split("\n\n- ")[0]
+        program = textwrap.dedent(block).replace("count = 100", "count = 3")
+        program = program.replace("simulator.set({", 'simulator.set({"sensors/0/resolution": [80, 60], ')
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(
+                [os.environ["PMDSIM_PROGRAM"], "new", "room", "room"], cwd=folder, check=True, capture_output=True
+            )
+            subprocess.run([sys.executable, "-W", "error", "-c", program], cwd=folder, check=True)
+            noises = []
+            for number in range(3):
+                with np.load(Path(folder) / f"pair_{number:04}.npz") as pair:
+                    self.assertEqual(pair["noisy"].shape, (60, 80))
+                    noises.append(pair["noisy"] - pair["clean"])
+        for one, other in itertools.combinations(noises, 2):
+            signs = np.sign(one * other)[np.isfinite(one * other)]
+            self.assertLess(abs(signs.mean()), 0.2)  # the same noise: 1
 
     def test_wrong_arguments_of_random_views(self) -> None:
         for arguments in (["--binning", "0"], ["--seed", "-1"], ["--count", "x"], ["-o", __file__]):

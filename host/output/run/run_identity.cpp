@@ -64,6 +64,15 @@ std::string input_difference(const ordered_json &there, const ordered_json &here
   return "the input files differ";
 }
 
+bool has_folders_of_runs(const std::filesystem::path &folder) {
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored))
+    if (std::filesystem::exists(entry->path() / run_file_name, ignored))
+      return true;
+  return false;
+}
+
 // Objects with a file's name, or json::exception.
 bool are_inputs(const ordered_json &inputs) {
   const auto names_file = [](const ordered_json &input) { return input.at("file").is_string(); };
@@ -107,7 +116,10 @@ std::optional<RunFile> parsed_run_file(const std::string &text) {
 
 RunFile read_run_file(const std::filesystem::path &folder) {
   const std::filesystem::path file = folder / run_file_name;
-  constexpr const char *expected = "expected what render or deform leaves beside its frames";
+  const char *expected = has_folders_of_runs(folder)
+                             ? "it holds variants; `render` with the same options, --resume and no --shard "
+                               "gathers their table"
+                             : "expected what render or deform leaves beside its frames";
   std::string text;
   try {
     text = read_regular_file(file, max_run_json_bytes, Place{file});

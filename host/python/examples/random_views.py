@@ -166,11 +166,15 @@ def main() -> None:
     print(f"{len(files)} views, {len(files) - len(missing)} of them are there")
     errors = []
     with pmdsim.Simulator(camera(arguments.binning), scene=furnished_room(arguments.seed)) as simulator:
-        for number, file in missing.items():
-            simulator.set(random_view(arguments.seed, number))
-            frame = simulator.render()
-            write(file, frame)
-            errors.append(np.nanmedian(np.abs(frame.distance_m - frame.distance_m_noiseless)))
+        try:
+            for number, file in missing.items():
+                simulator.set(random_view(arguments.seed, number))
+                frame = simulator.render()
+                write(file, frame)
+                errors.append(np.nanmedian(np.abs(frame.distance_m - frame.distance_m_noiseless)))
+        except KeyboardInterrupt:
+            there = len(files) - len(missing) + len(errors)
+            parser.exit(130, f"{parser.prog}: {there} of {len(files)} views are whole, start again to go on\n")
     if errors:
         print(f"{len(errors)} made, {1e3 * np.median(errors):.1f} mm of noise in the median pixel of the median view")
 

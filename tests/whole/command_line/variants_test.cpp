@@ -147,6 +147,10 @@ TEST_CASE("A shard of variants") {
   CHECK_FALSE(std::filesystem::exists(small.work / "shard/0000"));
   CHECK(std::filesystem::exists(small.work / "shard/table.1-of-2.csv")); // the other one's is beside it
   CHECK_FALSE(std::filesystem::exists(small.work / "shard/table.csv"));
+  const Run merged = run_pmdsim({"merge", small.work / "shard", "-o", small.work / "all"});
+  CHECK(merged.exit_code == 3);
+  CHECK(merged.errors.find("it holds variants; `render` with the same options, --resume and no --shard") !=
+        std::string::npos);
   REQUIRE(small.render({small.setup, "--variants", variants, "-o", small.work / "none", "--shard", "7/9"})
               .exit_code == 0);
   CHECK_FALSE(std::filesystem::exists(small.work / "none/table.7-of-9.csv"));
