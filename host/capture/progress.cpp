@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <fmt/format.h>
+#include <string_view>
 #include <unistd.h>
 #include <utility>
 
@@ -16,7 +17,16 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
 
-void remember(int) { interrupted = true; }
+std::atomic<bool> tells{false}; // stderr is a terminal
+
+// A step may take seconds to its next safe point.
+void remember(int) {
+  constexpr std::string_view text = "\r\x1b[Kpmdsim: stopping at the next safe point\r\n";
+  const int error_before = errno;
+  if (!interrupted.exchange(true) && tells && ::write(STDERR_FILENO, text.data(), text.size()) < 0)
+    errno = error_before; // nobody listens
+  errno = error_before;
+}
 
 constexpr auto interval_of_bar = std::chrono::milliseconds(100);
 constexpr auto interval_of_lines = std::chrono::minutes(1);
@@ -40,6 +50,7 @@ std::string share_text(double done, double elapsed_s) {
 } // namespace
 
 void stop_on_signals() {
+  tells = ::isatty(STDERR_FILENO) == 1;
   struct sigaction action {};
   action.sa_handler = remember;
   action.sa_flags = SA_RESTART; // writes under way go on; the flag is looked at between them

@@ -196,9 +196,9 @@ std::string bounces_text(const Setup &setup) {
   const std::string count =
       setup.bounces.count == all_bounces ? "all" : fmt::format("{}", setup.bounces.count);
   const std::optional<BouncesForecast> forecast = forecast_of(setup);
-  return fmt::format(
-      "{}, multipath within {:.6g} mm is asked for: {} elements at first, a frame in about {:.1g} s", count,
-      1e3 * setup.bounces.max_error_m, forecast->elements, forecast->frame_s);
+  return fmt::format("{}, multipath within {:.6g} mm is asked for: {} elements at first, a frame in about "
+                     "{:.1g} s if they suffice, else up to ten times that",
+                     count, 1e3 * setup.bounces.max_error_m, forecast->elements, forecast->frame_s);
 }
 
 // The first few, by object_id; a name may hold anything, so it stands as JSON has it.

@@ -53,6 +53,7 @@ void furnish(const Workspace &work) {
   work.write("camera.yml", opencv_calibration());
   work.write("camera_info.yaml", "width: 12\nheight: 8\ndistortion_model: ''\nd: []\n"
                                  "k: [40.0, 0.0, 5.5, 0.0, 40.0, 3.5, 0.0, 0.0, 1.0]\n");
+  work.write("study.jsonl", R"({"sensors/0/taps": 4})");
   std::filesystem::create_directory_symlink(PMDSIM_SCENES, work.path() / "scenes");
 }
 
