@@ -48,6 +48,7 @@ ordered_json frame_summary(const Measurement &frame) {
     put_spread(channel_name("distance", frequency), "_m", frame.returns[i].distance_m, summary);
     put_spread(channel_name("amplitude", frequency), "", frame.returns[i].amplitude, summary);
   }
+  put_spread("range", "_m", frame.range_m, summary);
   summary["coverage_mean"] = mean_of(frame.coverage);
   return summary;
 }

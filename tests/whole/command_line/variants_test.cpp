@@ -94,6 +94,7 @@ TEST_CASE("Variants: a folder for each, the same bytes as alone, and a table") {
   CHECK_FALSE(std::getline(table, rest));
   CHECK(header.starts_with(
       "variant,illuminators/0/intensity_w_sr,sensors/0/pose,sensor,frame,time_s,distance_min_m"));
+  CHECK(header.find(",range_min_m,range_median_m,range_max_m,coverage_mean") != std::string::npos);
   CHECK(first.starts_with("\"0000\",2,,\"pmd\",0,"));
   CHECK(second.starts_with("\"0001\",3,"));
 }
