@@ -1,6 +1,6 @@
 #include "host/commands/correct_channels.h"
 
-#include "engine/model/corrected_channels.h"
+#include "engine/correction/corrected_channels.h"
 
 #include <array>
 #include <optional>

@@ -10,7 +10,7 @@
 
 namespace pmdsim {
 
-// corrected_channel_rows of engine/model/corrected_channels.h, and their values.
+// corrected_channel_rows of engine/correction/corrected_channels.h, and their values.
 struct CorrectedChannels {
   CorrectedChannels(const CorrectedImage &corrected, const Sensor &sensor);
   CorrectedChannels(const CorrectedChannels &) = delete; // `set` looks at the values

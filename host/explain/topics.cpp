@@ -1,7 +1,7 @@
 #include "host/explain/topics.h"
 
+#include "engine/correction/corrected_channels.h"
 #include "engine/model/channel_names.h"
-#include "engine/model/corrected_channels.h"
 #include "engine/model/error.h"
 #include "host/input/file/input_error.h"
 

@@ -1,7 +1,7 @@
 #include "host/input/frame/frame_file.h"
 
+#include "engine/correction/corrected_channels.h"
 #include "engine/model/channel_names.h"
-#include "engine/model/corrected_channels.h"
 #include "host/input/file/input_file.h"
 #include "host/input/frame/frame_bytes.h"
 

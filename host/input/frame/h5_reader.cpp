@@ -1,7 +1,7 @@
 #include "host/input/frame/frame_bytes.h"
 
+#include "engine/correction/corrected_channels.h"
 #include "engine/model/channels.h"
-#include "engine/model/corrected_channels.h"
 #include "host/hdf5/memory_file.h"
 
 #include <algorithm>

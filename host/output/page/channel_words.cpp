@@ -1,7 +1,7 @@
 #include "host/output/page/channel_words.h"
 
+#include "engine/correction/corrected_channels.h"
 #include "engine/model/channel_names.h"
-#include "engine/model/corrected_channels.h"
 
 #include <algorithm>
 #include <array>
