@@ -18,8 +18,8 @@ std::vector<double> finite_ones(const std::vector<double> &values) {
   return finite;
 }
 
-// An end of the values at either end of a turn, which distances have by chance alone where the ambiguity
-// range is another.
+// Whether the least value is at the beginning of a turn and the largest at its end. Distances are so by
+// chance alone, but where the ambiguity range has that length.
 bool fill_a_turn(const std::vector<double> &values, double ambiguity_m) {
   constexpr double turn = 2.0 * std::numbers::pi, near_end = 2e-3, rounding = 1e-6;
   const auto [least, most] = std::ranges::minmax(values);

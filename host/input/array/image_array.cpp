@@ -26,7 +26,7 @@ ImageArrays frame_arrays(const std::filesystem::path &file,
       continue;
     std::visit(
         [&](const auto &values) {
-          using Value = typename std::decay_t<decltype(values)>::value_type;
+          using Value = std::decay_t<decltype(values)>::value_type;
           constexpr bool whole = std::is_integral_v<Value>;
           read.arrays.push_back({channel.name,
                                  frame.resolution,
