@@ -158,7 +158,8 @@ void Correction::first_pass() {
         set(at, first_range(at, offset_m));
     }
   });
-  result_.noise_m = noise_of(ranges());
+  result_.noise_m =
+      std::fmax(noise_of(ranges()), image_.step_m > 0.0 ? image_.step_m / std::sqrt(12.0) : not_a_number);
   result_.fit_pixels =
       options_.fit_pixels > 0 ? options_.fit_pixels : fit_pixels_for(result_.noise_m, spacing_of(ranges()));
 }

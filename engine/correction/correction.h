@@ -18,6 +18,7 @@ struct MeasuredImage {
   std::vector<double> phase_rad; // of any turn; not finite where nothing was measured
   // The range within half of the ambiguity range, or not finite where it is not known; empty: of no pixel.
   std::vector<double> guess_m{};
+  double step_m = 0.0; // between the distances that it can tell apart, as of whole millimetres; 0: of none
 };
 
 enum class NormalsFrom {
@@ -56,8 +57,9 @@ struct CorrectedImage {
   std::vector<glm::dvec3> normal;     // camera frame, unit length, towards the lens
   std::vector<std::uint32_t> status;  // PixelStatus
   std::size_t counts[status_count] = {};
-  double noise_m = 0.0;      // of single ranges, found where neighbours disagree; NaN where it is not known
-  double edge_limit_m = 0.0; // of PixelStatus::edge: 2 um, or what noise makes of most normals
+  double noise_m = 0.0; // of single ranges, found where neighbours disagree, or of the image's steps if that
+  // is more; NaN where it is not known
+  double edge_limit_m = 0.0;    // of PixelStatus::edge: 2 um, or what noise makes of most normals
   std::uint32_t fit_pixels = 0; // that were used
   std::uint32_t passes = 0;
   double last_change_m = 0.0; // the largest, of any corrected pixel, by the last pass

@@ -16,11 +16,13 @@ struct SurfaceFit {
   // pixels of one lie in the plane of the other.
   bool one_sided = true;
   // How far the surface bends away from its plane, along the columns and along the rows: second differences
-  // of range; 0 where the window reaches to one side only.
+  // of range in the window, as far as they are no noise; 0 where the window reaches to one side only.
   glm::dvec2 bend_m{0.0};
+  // The same of the pixel and its neighbours alone, with their noise.
+  glm::dvec2 nearest_bend_m{0.0};
   // How the normal turns from a pixel to the next, along the columns and along the rows; 0 likewise.
   glm::dvec3 turn_columns{0.0}, turn_rows{0.0};
-  // How far the pixel lies off the surface that bends as it does at its neighbours, estimated.
+  // How far the pixel lies off the surface that bends as it does at its neighbours, beyond noise, estimated.
   double off_m = 0.0;
 };
 

@@ -39,11 +39,20 @@ std::vector<Warning> beside_setup(const Setup &setup) {
   return warnings;
 }
 
-RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::string &command,
-                const Camera &camera) {
+RunHead by_camera(RunHead head, const Camera &camera) {
+  head.device = camera.device();
+  head.driver = camera.driver();
+  return head;
+}
+
+bool has_distances(const std::set<Format> &formats) {
+  return formats.empty() || std::ranges::any_of(formats, [](Format format) { return format != Format::png; });
+}
+
+} // namespace
+
+RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::string &command) {
   RunHead head{.command = command,
-               .device = camera.device(),
-               .driver = camera.driver(),
                .accuracy = request.accuracy,
                .paths = request.paths,
                .setup = setup.as_used,
@@ -56,12 +65,6 @@ RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::st
   head.warnings = beside_setup(setup);
   return head;
 }
-
-bool has_distances(const std::set<Format> &formats) {
-  return formats.empty() || std::ranges::any_of(formats, [](Format format) { return format != Format::png; });
-}
-
-} // namespace
 
 SetupDocument requested_document(const CaptureRequest &request, const std::filesystem::path &file) {
   SetupDocument document = read_setup_document(file);
@@ -99,8 +102,10 @@ void require_measurable(const CaptureRequest &request, const Setup &setup) {
     refuse_warnings(setup.warnings);
 }
 
-Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader) {
-  Setup setup = loader.load(document);
+namespace {
+
+// What is asked for instead of the setup's own values, and its warnings.
+Setup with_request(Setup setup, const CaptureRequest &request) {
   if (request.accuracy.strict)
     refuse_warnings(setup.warnings);
   for (const Warning &warning : setup.warnings)
@@ -110,6 +115,16 @@ Setup requested_setup(const CaptureRequest &request, const SetupDocument &docume
   if (request.samples)
     set_samples(setup, *request.samples);
   return setup;
+}
+
+} // namespace
+
+Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader) {
+  return with_request(loader.load(document), request);
+}
+
+Setup requested_setup_without_scene(const CaptureRequest &request, const SetupDocument &document) {
+  return with_request(SetupLoader::load_without_scene(document), request);
 }
 
 Setup requested_setup_without_bounces(const CaptureRequest &request) {
@@ -165,7 +180,7 @@ Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &
                 {frames_, request.output_directory,
                  request.resume ? RunFolder::Earlier::kept : RunFolder::Earlier::made_again,
                  request.accuracy.strict},
-                head_of(request, setup_, command, exposures_.camera())) {}
+                by_camera(head_of(request, setup_, command), exposures_.camera())) {}
 
 std::string Capture::device_text() const {
   return fmt::format("device    {} ({})\n\n", exposures_.camera().device(), exposures_.camera().driver());

@@ -43,6 +43,10 @@ Setup requested_setup(const CaptureRequest &request);
 SetupDocument requested_document(const CaptureRequest &request, const std::filesystem::path &file);
 // The same of a document, by a loader that others of the same scenes may use.
 Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader);
+// The same for commands that look at no scene: it is not read.
+Setup requested_setup_without_scene(const CaptureRequest &request, const SetupDocument &document);
+// What a manifest says of a run of the setup before its frames; without a device.
+RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::string &command);
 // Throws Error where frames of the setup cannot be measured and written as is asked for: (usage) frames,
 // paths or channels that it has not; (input) a sensor's name that can be none of a file, or warnings that are
 // to be errors.

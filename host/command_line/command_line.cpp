@@ -258,6 +258,8 @@ void add_suggestions(CommandTable &table) {
   channels.emplace_back(deformation_channel);
   suggest(table, "--channels", channels);
   suggest(table, "--device", {"cpu", "gpu", "reference"});
+  suggest(table, "--quantity", {"distance", "phase", "depth"});
+  suggest(table, "--unit", {"m", "mm", "rad", "turns"});
   suggest(table, "--samples", {"auto"});
   suggest(table, "--shard", {"slurm"});
   suggest(table, "KEY", topic_names());

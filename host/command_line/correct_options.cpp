@@ -3,6 +3,7 @@
 #include "engine/model/error.h"
 #include "host/input/file/input_error.h"
 #include "host/input/file/length.h"
+#include "host/input/words/near_name.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>
@@ -29,16 +30,49 @@ double length_of(const char *option, const std::string &text) {
                           in_quotes(text)));
 }
 
+// Of a kind that people ask for, where it is none of an image to correct.
+void take_quantity(const std::string &quantity, ImageRequest &image) {
+  if (const auto named = quantity_names.find(quantity); named != quantity_names.end()) {
+    image.quantity = named->second;
+    return;
+  }
+  std::vector<std::string> names;
+  for (const auto &named : quantity_names)
+    names.push_back(named.first);
+  throw Error(ExitCode::usage,
+              fmt::format("--quantity: expected distance, phase or depth, found {}{}", in_quotes(quantity),
+                          quantity == "range" || quantity == "range_m"
+                              ? "; ranges from the lens are what correct finds, --truth and --guess take them"
+                              : did_you_mean(quantity, names)));
+}
+
 // A unit says whether the image holds angles or lengths, unless that is said already.
 void take_unit(const std::string &unit, ImageRequest &image) {
   const bool is_angle = angle_units.contains(unit);
+  const auto named = length_units.find(unit);
+  const std::optional<double> length = named != length_units.end() ? named->second : length_m(unit);
+  if (!is_angle && !length)
+    throw Error(ExitCode::usage,
+                fmt::format("--unit: expected m, mm, a length such as 0.1mm, rad or turns, found {}",
+                            in_quotes(unit)));
   if (image.quantity && (*image.quantity == Quantity::phase) != is_angle)
     throw Error(ExitCode::usage,
                 fmt::format("--unit {}: expected {}", unit,
                             is_angle ? "m or mm, for a distance or depth" : "rad or turns, for a phase"));
   if (is_angle)
     image.quantity = Quantity::phase;
-  image.unit = is_angle ? angle_units.at(unit) : length_units.at(unit);
+  image.unit = is_angle ? angle_units.at(unit) : *length;
+}
+
+// A length in place of an image is for another option.
+void check_guess(const std::filesystem::path &guess) {
+  std::error_code ignored;
+  if (length_m(guess.string()) && !std::filesystem::exists(guess, ignored))
+    throw Error(
+        ExitCode::usage,
+        fmt::format("--guess: expected an image of ranges, found the length {}; --least-range takes a "
+                    "length",
+                    in_quotes(guess.string())));
 }
 
 void take_normals(const std::string &text, CorrectOptions &options) {
@@ -66,22 +100,26 @@ void add_correct(CLI::App &command, WrittenCorrect &written) {
       ->required();
   command.add_option("--channel", options.image.channel,
                      "of a file with several [distance_m, else phase_rad]");
-  command
-      .add_option("--quantity", written.quantity,
-                  "what the image holds: distance, phase, or depth along the optical axis [by its name, else "
-                  "distance]")
-      ->check(CLI::IsMember({"distance", "phase", "depth"}));
-  command
-      .add_option("--unit", written.unit,
-                  "of the image: m, mm, rad or turns [by its name, else m, of whole numbers mm; rad]")
-      ->check(CLI::IsMember({"m", "mm", "rad", "turns"}));
+  command.add_option(
+      "--quantity", written.quantity,
+      "what the image holds: distance, phase, or depth along the optical axis [by its name, else "
+      "distance]");
+  command.add_option(
+      "--unit", written.unit,
+      "of the image: m, mm, a length such as 0.1mm, rad or turns [by its name, else m, of whole "
+      "numbers mm; rad]");
+  command.add_option("--invalid", options.image.invalid,
+                     "a number of the file that says: not measured [NaN, infinity, the largest number of an "
+                     "unsigned integer type, and 0 or less but of a phase, say so anyway]");
   command.add_option("--sensor", options.sensor, "the sensor's name, of several [the first]");
   command.add_option("--frame", options.frame,
                      "the image's frame, of a setup that moves, and in a directory of frames [0]");
   command.add_option("--frequency", options.image.frequency,
                      "the index of the image's modulation frequency, of several [0]");
-  command.add_option("--least-range", written.least_range,
-                     "ranges lie between this and one ambiguity range more, e.g. 7.5m [0]");
+  command.add_option(
+      "--least-range", written.least_range,
+      "ranges lie between this and one ambiguity range more, e.g. 7.5m [0; else what the image "
+      "tells of turns]");
   command.add_option("--guess", options.image.guess,
                      "an image of ranges, each right within half of the ambiguity range");
   command.add_option("--unwrap", written.unwrap,
@@ -98,14 +136,15 @@ void add_correct(CLI::App &command, WrittenCorrect &written) {
 CorrectOptions correct_options_of(const WrittenCorrect &written) {
   CorrectOptions options = written.options;
   if (written.quantity)
-    options.image.quantity = quantity_names.at(*written.quantity);
+    take_quantity(*written.quantity, options.image);
   if (written.unit)
     take_unit(*written.unit, options.image);
   if (written.least_range)
-    options.least_range_m =
+    options.image.least_range_m =
         *written.least_range == "0" ? 0.0 : length_of("--least-range", *written.least_range);
   if (written.unwrap)
     options.image.unwrap_range_m = length_of("--unwrap", *written.unwrap);
+  check_guess(options.image.guess);
   if (written.normals)
     take_normals(*written.normals, options);
   return options;

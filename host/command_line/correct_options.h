@@ -21,7 +21,6 @@ struct CorrectOptions {
   ImageRequest image;
   std::string sensor;      // by its name; empty: the first
   std::uint32_t frame = 0; // of a setup that moves
-  double least_range_m = 0.0;
   NormalsFrom normals = NormalsFrom::neighbours;
   std::uint32_t fit_pixels = 0; // as CorrectionOptions
   std::string truth;            // a file, `scene`, or empty

@@ -67,6 +67,18 @@ std::vector<ErrorRow> error_rows(const CorrectedImage &corrected, const std::vec
   return rows;
 }
 
+std::size_t wrong_turns(const CorrectedImage &corrected, const std::vector<double> &true_range_m,
+                        double ambiguity_m) {
+  constexpr double near = 0.1;
+  std::size_t count = 0;
+  for (std::size_t pixel = 0; pixel < true_range_m.size(); ++pixel) {
+    const double turns = (corrected.range_m[pixel] - true_range_m[pixel]) / ambiguity_m;
+    if (std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < near)
+      ++count;
+  }
+  return count;
+}
+
 std::string error_text(const std::vector<ErrorRow> &rows) {
   std::string text = fmt::format("{:<28}{:>9}", "", "pixels");
   for (const auto &[name, figure] : figures)

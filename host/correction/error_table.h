@@ -26,6 +26,10 @@ struct ErrorRow {
 std::vector<ErrorRow> error_rows(const CorrectedImage &corrected, const std::vector<double> &true_range_m,
                                  const std::vector<double> &lit);
 
+// How many of these pixels are off by about whole ambiguity ranges: their turn is wrong.
+std::size_t wrong_turns(const CorrectedImage &corrected, const std::vector<double> &true_range_m,
+                        double ambiguity_m);
+
 std::string error_text(const std::vector<ErrorRow> &rows);
 nlohmann::ordered_json error_json(const std::vector<ErrorRow> &rows);
 

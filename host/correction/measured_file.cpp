@@ -73,33 +73,6 @@ const ImageArray &image_of(const ImageArrays &read, const ImageRequest &request,
                                              request.channel ? "" : "; --channel names another"));
 }
 
-struct Meaning {
-  Quantity quantity;
-  double unit; // metres or radians of 1
-};
-
-// By the ending of a name, as "distance_m", "phase_rad" or "depth_mm.png".
-Meaning meaning_of(const ImageRequest &request, std::string_view name, bool whole_numbers) {
-  const auto has = [&](std::string_view part) { return name.find(part) != std::string_view::npos; };
-  const Quantity by_name = has("phase")                    ? Quantity::phase
-                           : has("depth") || name == "z_m" ? Quantity::depth
-                                                           : Quantity::distance;
-  const Quantity quantity = request.quantity.value_or(by_name);
-  if (request.unit)
-    return {quantity, *request.unit};
-  if (quantity == Quantity::phase)
-    return {quantity, 1.0};
-  return {quantity, has("_mm") || (whole_numbers && !has("_m")) ? 1e-3 : 1.0};
-}
-
-// Zeros of integers are pixels where nothing was measured.
-std::vector<double> values_of(const ImageArray &array, double unit) {
-  std::vector<double> values = array.values;
-  for (double &value : values)
-    value = array.whole_numbers && value == 0.0 ? not_a_number : value * unit;
-  return values;
-}
-
 void depths_to_distances(std::vector<double> &values, const Sensor &sensor) {
   const Lens lens(sensor);
   for (std::uint32_t row = 0; row < sensor.resolution.y; ++row)
@@ -130,11 +103,28 @@ std::vector<double> unwrapped_m(const ImageArrays &read, const ImageRequest &req
   return {frame.unwrapped_distance_m.begin(), frame.unwrapped_distance_m.end()};
 }
 
-// What tells the turns, in the order of preference.
+// By distances that are unwrapped already, where more of them than stray ones lie beyond the ambiguity range,
+// by more than a step of the image.
+void find_turns_of_distances(const std::vector<double> &distance_m, double ambiguity_m,
+                             MeasuredFile &measured) {
+  constexpr double most_stray = 0.01, rounding = 1e-6;
+  const double end_m = ambiguity_m * (1.0 + rounding) + 0.5 * measured.image.step_m;
+  const auto all = std::ranges::count_if(distance_m, [](double d) { return std::isfinite(d); });
+  const auto beyond = std::ranges::count_if(distance_m, [&](double d) { return d > end_m; });
+  const double share = all > 0 ? static_cast<double>(beyond) / static_cast<double>(all) : 0.0;
+  if (share <= most_stray) {
+    measured.beyond_ambiguity = static_cast<std::size_t>(beyond);
+    return;
+  }
+  measured.image.guess_m = distance_m;
+  measured.turns = fmt::format("the distances themselves, {:.1f} % of which are beyond the ambiguity range",
+                               100.0 * share);
+}
+
+// What tells the turns, in the order of preference. `distance_m` is empty where the image has phases.
 void find_turns(const ImageArrays &read, const ImageRequest &request, const Sensor &sensor,
                 const std::filesystem::path &file, const std::vector<double> &distance_m,
                 MeasuredFile &measured) {
-  const double ambiguity_m = sensor.ambiguity_m(request.frequency);
   std::vector<double> &guess_m = measured.image.guess_m;
   if (!request.guess.empty()) {
     guess_m = read_truth(request.guess, sensor).range_m;
@@ -142,14 +132,14 @@ void find_turns(const ImageArrays &read, const ImageRequest &request, const Sens
   } else if (request.unwrap_range_m > 0.0) {
     guess_m = unwrapped_m(read, request, sensor, file);
     measured.turns = "the distances of all frequencies";
+  } else if (request.least_range_m) {
+    return;
   } else if (const ImageArray *array = find_array(read, "unwrapped_distance_m")) {
     require_size(*array, sensor, file);
     guess_m = array->values;
     measured.turns = "unwrapped_distance_m of the same file";
-  } else if (std::ranges::any_of(distance_m,
-                                 [&](double d) { return d < 0.0 || d > ambiguity_m * (1.0 + 1e-6); })) {
-    guess_m = distance_m;
-    measured.turns = "the distances themselves, some of which are beyond the ambiguity range";
+  } else {
+    find_turns_of_distances(distance_m, sensor.ambiguity_m(request.frequency), measured);
   }
 }
 
@@ -163,6 +153,26 @@ std::vector<double> channel_of(const ImageArrays &read, const char *name, const 
     return {};
   require_size(*array, sensor, file);
   return array->values;
+}
+
+// The phases of the values that were read, and their turns.
+void take_values(const ImageArray &array, const ImageArrays &read, const ImageRequest &request,
+                 const Sensor &sensor, const std::filesystem::path &file, MeasuredFile &measured) {
+  const double modulation_hz = sensor.modulation_hz[request.frequency];
+  const Meaning &meaning = measured.meaning;
+  const bool is_phase = meaning.quantity == Quantity::phase;
+  std::vector<double> values = measured.values;
+  if (array.whole_numbers)
+    measured.image.step_m = is_phase ? distance_of_phase_m(meaning.unit, modulation_hz) : meaning.unit;
+  if (meaning.quantity == Quantity::depth)
+    depths_to_distances(values, sensor);
+  find_turns(read, request, sensor, file, is_phase ? std::vector<double>{} : values, measured);
+  if (!is_phase) {
+    measured.warnings = doubts_of_distances(values, sensor.ambiguity_m(request.frequency), measured.source);
+    for (double &value : values)
+      value = phase_of_distance_rad(value, modulation_hz);
+  }
+  measured.image.phase_rad = std::move(values);
 }
 
 } // namespace
@@ -182,22 +192,11 @@ MeasuredFile read_measured(const ImageRequest &request, const Sensor &sensor, st
   const ImageArray &array = image_of(read, request, sensor, file);
   require_size(array, sensor, file);
   const std::string name = array.name.empty() ? file.filename().string() : array.name;
-  const Meaning meaning = meaning_of(request, name, array.whole_numbers);
-  std::vector<double> values = values_of(array, meaning.unit);
-
   MeasuredFile measured{.source = array.name.empty() ? file.string()
-                                                     : fmt::format("{} of {}", array.name, file.string())};
-  const double modulation_hz = sensor.modulation_hz[request.frequency];
-  if (meaning.quantity == Quantity::phase) {
-    find_turns(read, request, sensor, file, {}, measured);
-  } else {
-    if (meaning.quantity == Quantity::depth)
-      depths_to_distances(values, sensor);
-    find_turns(read, request, sensor, file, values, measured);
-    for (double &value : values)
-      value = phase_of_distance_rad(value, modulation_hz);
-  }
-  measured.image.phase_rad = std::move(values);
+                                                     : fmt::format("{} of {}", array.name, file.string()),
+                        .meaning = meaning_of(name, array.whole_numbers, request.quantity, request.unit)};
+  measured.values = values_of(array, measured.meaning, request.invalid);
+  take_values(array, read, request, sensor, file, measured);
   measured.range_m = channel_of(read, "range_m", sensor, file);
   measured.lit = channel_of(read, "lit", sensor, file);
   return measured;
@@ -208,7 +207,8 @@ TruthFile read_truth(const std::filesystem::path &file, const Sensor &sensor) {
   TruthFile truth;
   if (read.names.empty()) {
     require_size(read.arrays.front(), sensor, file);
-    truth.range_m = values_of(read.arrays.front(), read.arrays.front().whole_numbers ? 1e-3 : 1.0);
+    const ImageArray &array = read.arrays.front();
+    truth.range_m = values_of(array, {Quantity::distance, array.whole_numbers ? 1e-3 : 1.0}, {});
     return truth;
   }
   truth.range_m = channel_of(read, "range_m", sensor, file);

@@ -48,9 +48,13 @@ void add_keys(const std::vector<SetupKey> &keys, std::string &page) {
   }
 }
 
+std::string owner_of(const ChannelTopic &channel) {
+  return channel.of_frequency ? "each frequency" : channel.command == "correct" ? "`correct`" : "the frame";
+}
+
 void add(const ChannelTopic &channel, std::string &page) {
-  page += fmt::format("| `{}` | {} | {} | {} |\n", channel.name, cell(channel.unit),
-                      channel.of_frequency ? "each frequency" : "the frame", cell(channel.about));
+  page += fmt::format("| `{}` | {} | {} | {} |\n", channel.name, cell(channel.unit), owner_of(channel),
+                      cell(channel.about));
 }
 
 void add(const ExitCodeRow &row, std::string &page) {

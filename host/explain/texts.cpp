@@ -108,8 +108,10 @@ std::string text_of(const ChannelTopic &channel) {
     text += fact("unit", channel.unit);
   if (channel.of_frequency)
     text += fact("of", "each frequency, with the prefix f0., f1., ... where there are several");
-  return text + fact("example",
-                     fmt::format("pmdsim {} SETUP --channels {}", channel.command, channel_name(channel)));
+  return text + fact("example", channel.command == "correct"
+                                    ? std::string("pmdsim correct SETUP IMAGE")
+                                    : fmt::format("pmdsim {} SETUP --channels {}", channel.command,
+                                                  channel_name(channel)));
 }
 
 std::string text_of(const ExitCodeRow &row) {

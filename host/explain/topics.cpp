@@ -1,5 +1,6 @@
 #include "host/explain/topics.h"
 
+#include "engine/correction/corrected_channels.h"
 #include "engine/model/channel_names.h"
 #include "engine/model/error.h"
 #include "host/input/file/input_error.h"
@@ -24,11 +25,21 @@ ChannelTopic channel_topic(const ChannelRow &row) {
   return {name, std::string(row.unit), std::string(row.about), is_of_frequency(row), "render"};
 }
 
-std::optional<Topic> channel_meant(const std::string &word) {
+ChannelTopic corrected_topic(const CorrectedChannelRow &row) {
+  return {std::string(row.name), std::string(row.unit), std::string(row.about), false, "correct"};
+}
+
+// A name may be of channels of several commands.
+std::vector<Topic> channels_meant(const std::string &word) {
+  std::vector<Topic> topics;
   if (word == deformation.name)
-    return deformation;
-  const ChannelRow *row = channel_named(word).row;
-  return row ? std::optional<Topic>(channel_topic(*row)) : std::nullopt;
+    topics.emplace_back(deformation);
+  if (const ChannelRow *row = channel_named(word).row)
+    topics.emplace_back(channel_topic(*row));
+  for (const CorrectedChannelRow &row : corrected_channel_rows)
+    if (word == row.name)
+      topics.emplace_back(corrected_topic(row));
+  return topics;
 }
 
 std::optional<Topic> exit_code_meant(const std::string &word) {
@@ -72,14 +83,13 @@ std::vector<std::string> near_names(const std::string &word) {
                                                         : fmt::format("near are {}", fmt::join(near, ", "))));
 }
 
-// A name may be of keys and of a channel.
+// A name may be of keys and of channels.
 std::vector<Topic> topics_of_word(const std::string &word) {
   std::vector<Topic> topics;
   if (const auto code = exit_code_meant(word))
     return {*code};
   std::ranges::copy(keys_meant(word), std::back_inserter(topics));
-  if (const auto channel = channel_meant(word))
-    topics.push_back(*channel);
+  std::ranges::copy(channels_meant(word), std::back_inserter(topics));
   if (const auto warning = warning_meant(word))
     topics.push_back(*warning);
   if (topics.empty())
@@ -93,6 +103,7 @@ std::vector<Topic> all_topics() {
   std::vector<Topic> topics(setup_keys().begin(), setup_keys().end());
   std::ranges::transform(channel_rows, std::back_inserter(topics), channel_topic);
   topics.emplace_back(deformation);
+  std::ranges::transform(corrected_channel_rows, std::back_inserter(topics), corrected_topic);
   std::ranges::copy(exit_code_rows, std::back_inserter(topics));
   std::ranges::copy(warning_kinds, std::back_inserter(topics));
   return topics;
@@ -123,6 +134,8 @@ std::vector<std::string> topic_names() {
   for (const ChannelRow &row : channel_rows)
     names.emplace_back(row.name);
   names.push_back(deformation.name);
+  for (const CorrectedChannelRow &row : corrected_channel_rows)
+    names.emplace_back(row.name);
   for (const WarningKind &kind : warning_kinds)
     names.emplace_back(kind.code);
   names.emplace_back("exit");

@@ -13,7 +13,7 @@
 
 namespace pmdsim {
 
-// A channel as `render` or `deform` writes it.
+// A channel as `render`, `deform` or `correct` writes it.
 struct ChannelTopic {
   std::string name; // "tap0, tap1, ..."
   std::string unit; // empty: none

@@ -106,6 +106,56 @@ TEST_CASE("noise goes through, and normals are taken from more pixels") {
   CHECK(std::sqrt(squares / pixels) == Approx(noise_m).epsilon(0.05));
 }
 
+TEST_CASE("noise goes through, and nothing more, where a pixel has an area") {
+  Sensor sensor = camera({120, 100}, 150.0);
+  const std::vector<Illuminator> light{ring(0.15, 24)};
+  const SurfaceFormula surface = both(ball({0, 0, 2}, 0.4), wall({0, 0, 2.5}, {0.4, 0.2, -1}));
+  constexpr double noise_m = 5e-3;
+  for (const std::uint32_t samples : {1u, 2u, 4u, 16u}) {
+    sensor.samples = 4;
+    Taken taken = take(sensor, light, surface);
+    sensor.samples = samples;
+    std::mt19937 random(5);
+    std::normal_distribution<double> off_m(0.0, noise_m);
+    std::vector<double> noisy_range_m = taken.range_m;
+    for (std::size_t pixel = 0; pixel < noisy_range_m.size(); ++pixel) {
+      const double off = off_m(random);
+      taken.image.phase_rad[pixel] += phase_of_distance_rad(off, sensor.modulation_hz[0]);
+      noisy_range_m[pixel] += off;
+    }
+    const CorrectedImage corrected = correct(sensor, light, taken.image, {});
+    CHECK(corrected.edge_limit_m < noise_m);
+    double squares = 0.0;
+    for (std::size_t pixel = 0; pixel < noisy_range_m.size(); ++pixel)
+      if (corrected.status[pixel] == static_cast<std::uint32_t>(PixelStatus::corrected))
+        squares += std::pow(corrected.range_m[pixel] - noisy_range_m[pixel], 2);
+    INFO(samples);
+    CHECK(count(corrected, PixelStatus::corrected) > 6000);
+    CHECK(std::sqrt(squares / static_cast<double>(count(corrected, PixelStatus::corrected))) <
+          0.02 * noise_m);
+  }
+}
+
+TEST_CASE("an image of steps is no less noisy than its steps") {
+  const Sensor sensor = camera({120, 100}, 150.0);
+  const std::vector<Illuminator> light{ring(0.15, 24, {}, {0.05, 0.0, 0.0})};
+  Taken taken = take(sensor, light, wall({0, 0, 2}, {0, 0, -1}));
+  constexpr double step_m = 1e-3;
+  std::vector<double> stepped_range_m = taken.range_m;
+  for (std::size_t pixel = 0; pixel < stepped_range_m.size(); ++pixel) {
+    double &phase_rad = taken.image.phase_rad[pixel];
+    const double distance_m = distance_of_phase_m(phase_rad, sensor.modulation_hz[0]),
+                 stepped_m = step_m * std::round(distance_m / step_m);
+    phase_rad = phase_of_distance_rad(stepped_m, sensor.modulation_hz[0]);
+    stepped_range_m[pixel] += stepped_m - distance_m;
+  }
+  taken.image.step_m = step_m;
+  const CorrectedImage corrected = correct(sensor, light, taken.image, {});
+  CHECK(corrected.noise_m >= step_m / std::sqrt(12.0));
+  CHECK(count(corrected, PixelStatus::edge) < 500); // without, half of 12,000
+  CHECK(largest_error_m(corrected, stepped_range_m) < 0.1 * step_m);
+}
+
 TEST_CASE("the same image gives the same bits") {
   const Sensor sensor = camera({60, 50}, 80.0);
   const std::vector<Illuminator> light{ring(0.15, 24)};

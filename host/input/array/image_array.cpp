@@ -6,6 +6,7 @@
 #include "host/input/image/image_pixels.h"
 
 #include <fmt/format.h>
+#include <limits>
 #include <type_traits>
 
 namespace pmdsim {
@@ -25,8 +26,13 @@ ImageArrays frame_arrays(const std::filesystem::path &file,
       continue;
     std::visit(
         [&](const auto &values) {
-          const bool whole = std::is_integral_v<typename std::decay_t<decltype(values)>::value_type>;
-          read.arrays.push_back({channel.name, frame.resolution, {values.begin(), values.end()}, whole});
+          using Value = std::decay_t<decltype(values)>::value_type;
+          constexpr bool whole = std::is_integral_v<Value>;
+          read.arrays.push_back({channel.name,
+                                 frame.resolution,
+                                 {values.begin(), values.end()},
+                                 whole,
+                                 whole ? std::numeric_limits<Value>::max() : 0.0});
         },
         channel.values);
   }
@@ -45,7 +51,7 @@ ImageArray png_array(std::string_view bytes, const Place &place) {
   constexpr std::size_t most_pixels = std::size_t{max_image_side} * max_image_side;
   const ImagePixels image = decoded_image(
       {reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size()}, most_pixels, place);
-  ImageArray array{"", image.size, {}, true};
+  ImageArray array{"", image.size, {}, true, image.component_bytes == 2 ? 65535.0 : 255.0};
   const auto component = [&](std::size_t pixel, std::size_t colour) {
     const unsigned char *at = &image.rgba[(4 * pixel + colour) * image.component_bytes];
     return image.component_bytes == 2 ? 256u * at[0] + at[1] : unsigned{at[0]};

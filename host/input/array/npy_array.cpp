@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 namespace pmdsim {
 namespace {
@@ -125,14 +126,21 @@ struct ElementType {
   std::string_view code; // of descr, without the order of bytes
   std::size_t bytes;
   bool whole;
+  double largest; // of an unsigned type
   double (*value)(const char *bytes, bool swapped);
 };
 
+template <class Value>
+constexpr ElementType element_type(std::string_view code) {
+  return {code, sizeof(Value), std::is_integral_v<Value>,
+          std::is_unsigned_v<Value> ? static_cast<double>(std::numeric_limits<Value>::max()) : 0.0,
+          value_at<Value>};
+}
+
 constexpr std::array element_types{
-    ElementType{"f4", 4, false, value_at<float>},        ElementType{"f8", 8, false, value_at<double>},
-    ElementType{"u1", 1, true, value_at<std::uint8_t>},  ElementType{"u2", 2, true, value_at<std::uint16_t>},
-    ElementType{"u4", 4, true, value_at<std::uint32_t>}, ElementType{"i1", 1, true, value_at<std::int8_t>},
-    ElementType{"i2", 2, true, value_at<std::int16_t>},  ElementType{"i4", 4, true, value_at<std::int32_t>},
+    element_type<float>("f4"),         element_type<double>("f8"),        element_type<std::uint8_t>("u1"),
+    element_type<std::uint16_t>("u2"), element_type<std::uint32_t>("u4"), element_type<std::int8_t>("i1"),
+    element_type<std::int16_t>("i2"),  element_type<std::int32_t>("i4"),
 };
 
 static_assert(std::endian::native == std::endian::little);
@@ -179,7 +187,10 @@ ImageArray npy_array(std::string_view bytes, const Place &place) {
   const auto [text, begin] = header_text(bytes, place);
   const NpyHeader header = HeaderParser(text, place).header();
   const ElementType &type = type_of(header, place);
-  ImageArray array{.name = "", .resolution = resolution_of(header, place), .whole_numbers = type.whole};
+  ImageArray array{.name = "",
+                   .resolution = resolution_of(header, place),
+                   .whole_numbers = type.whole,
+                   .largest = type.largest};
   const std::size_t columns = array.resolution.x, rows = array.resolution.y, values = columns * rows;
   if (const std::size_t found = bytes.size() - begin; found / type.bytes != values || found % type.bytes != 0)
     throw input_error(place, fmt::format("expected {} x {} values of {} bytes each (rows x columns), found "

@@ -1,7 +1,11 @@
 #include "host/input/array/array_formats.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <fmt/format.h>
+#include <limits>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -13,32 +17,53 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(blanks) + 1);
 }
 
+// NaN for nothing.
 double number_in(std::string_view field, const TextPlace &place) {
+  if (field.empty())
+    return std::numeric_limits<double>::quiet_NaN();
   double value = 0.0;
   const std::string_view digits = field.substr(field.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size())
-    throw input_error(place, fmt::format("expected a number, found {}", in_quotes(field)));
-  return value;
+  if (error == std::errc() && end == digits.data() + digits.size())
+    return value;
+  const bool has_comma = error == std::errc() && end != digits.data() + digits.size() && *end == ',';
+  throw input_error(place,
+                    fmt::format("expected a number{}, found {}",
+                                has_comma ? " with a decimal point, not a comma" : "", in_quotes(field)));
 }
 
-// Takes the numbers of a line, separated by `,`, by `;`, or by blanks where the line has neither.
-std::size_t take_line(std::string_view line, TextPlace place, std::vector<double> &values) {
-  const char separator = line.find(',') != std::string_view::npos   ? ','
-                         : line.find(';') != std::string_view::npos ? ';'
+// The fields of a line, separated by `;`, by `,`, or by blanks where the line has neither, and the columns of
+// the file that they begin in.
+struct Field {
+  std::string_view text;
+  std::size_t column;
+};
+std::vector<Field> fields_of(std::string_view line) {
+  const char separator = line.find(';') != std::string_view::npos   ? ';'
+                         : line.find(',') != std::string_view::npos ? ','
                                                                     : ' ';
-  const std::size_t before = values.size(), length = line.size();
+  std::vector<Field> fields;
   for (std::string_view rest = line;;) {
     const std::size_t end =
         std::min(separator == ' ' ? rest.find_first_of(blanks) : rest.find(separator), rest.size());
-    place.column = length - rest.size() + 1;
-    values.push_back(number_in(trimmed(rest.substr(0, end)), place));
+    fields.push_back({trimmed(rest.substr(0, end)), line.size() - rest.size() + 1});
     if (end == rest.size())
-      return values.size() - before;
+      return fields;
     rest.remove_prefix(end + 1);
     if (separator == ' ')
       rest.remove_prefix(rest.find_first_not_of(blanks));
   }
+}
+
+// A header line: names of columns, of which none is a number.
+bool are_names(const std::vector<Field> &fields) {
+  return std::ranges::all_of(fields, [](const Field &field) {
+    const std::string_view name = field.text.substr(field.text.starts_with('"') ? 1 : 0);
+    const bool is_word =
+        !name.empty() && (std::isalpha(static_cast<unsigned char>(name.front())) != 0 || name.front() == '_');
+    double value = 0.0;
+    return is_word && std::from_chars(name.data(), name.data() + name.size(), value).ec != std::errc();
+  });
 }
 
 } // namespace
@@ -47,6 +72,7 @@ ImageArray text_array(std::string_view text, const Place &place) {
   ImageArray array{""};
   TextPlace at{place.file, 0};
   std::size_t columns = 0, rows = 0;
+  bool is_first = true;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = trimmed(text.substr(0, end));
@@ -54,12 +80,16 @@ ImageArray text_array(std::string_view text, const Place &place) {
     ++at.line;
     if (line.empty() || line.starts_with('#'))
       continue;
-    const std::size_t found = take_line(line, at, array.values);
+    const std::vector<Field> fields = fields_of(line);
+    if (std::exchange(is_first, false) && are_names(fields))
+      continue;
+    for (const Field &field : fields)
+      array.values.push_back(number_in(field.text, {at.file, at.line, field.column}));
     if (rows++ == 0)
-      columns = found;
-    else if (found != columns)
-      throw input_error(at,
-                        fmt::format("expected {} numbers as in the rows before, found {}", columns, found));
+      columns = fields.size();
+    else if (fields.size() != columns)
+      throw input_error(
+          at, fmt::format("expected {} numbers as in the rows before, found {}", columns, fields.size()));
   }
   if (rows == 0)
     throw input_error(place, "expected an image as NPY, NPZ, EXR, HDF5, PNG or rows of numbers, found no "

@@ -1,9 +1,11 @@
 #include "host/input/frame/frame_file.h"
 
+#include "engine/correction/corrected_channels.h"
 #include "engine/model/channel_names.h"
 #include "host/input/file/input_file.h"
 #include "host/input/frame/frame_bytes.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
@@ -72,7 +74,10 @@ std::string unit_of(std::string_view channel_name) {
   if (channel_name.ends_with(deformation_name))
     return "mm";
   const ChannelRow *row = channel_named(channel_name).row;
-  return row ? std::string(row->unit) : "";
+  if (row)
+    return std::string(row->unit);
+  const auto corrected = std::ranges::find(corrected_channel_rows, channel_name, &CorrectedChannelRow::name);
+  return corrected != corrected_channel_rows.end() ? std::string(corrected->unit) : "";
 }
 
 ReadFrame read_frame(const std::filesystem::path &file) {

@@ -1,8 +1,10 @@
 #include "host/input/frame/frame_bytes.h"
 
+#include "engine/correction/corrected_channels.h"
 #include "engine/model/channels.h"
 #include "host/hdf5/memory_file.h"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <libdeflate.h>
@@ -41,6 +43,9 @@ std::vector<std::string> names_of_channels() {
         names.push_back(fmt::format("{}{}{}", prefix, row.name, k));
   for (const ChannelRow &row : channel_rows)
     if (!is_of_frequency(row))
+      names.emplace_back(row.name);
+  for (const CorrectedChannelRow &row : corrected_channel_rows)
+    if (std::ranges::find(names, row.name) == names.end())
       names.emplace_back(row.name);
   return names;
 }

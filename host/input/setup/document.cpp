@@ -112,6 +112,23 @@ SetupDocument parse_setup_document(std::string_view text, const std::filesystem:
   return {file, parse_json(text, file, Comments::allowed)};
 }
 
+namespace {
+
+bool has_node(const nlohmann::json &part) {
+  return (part.is_object() && part.contains("node")) ||
+         (part.is_structured() && std::ranges::any_of(part, has_node));
+}
+
+} // namespace
+
+bool names_nodes(const SetupDocument &document) {
+  const nlohmann::json &setup = document.json;
+  if (!setup.is_object())
+    return false;
+  const auto part = [&](const char *key) { return setup.value(key, nlohmann::json::array()); };
+  return !part("nodes").empty() || has_node(part("sensors")) || has_node(part("illuminators"));
+}
+
 std::string escaped(std::string name) {
   for (std::size_t at = 0; (at = name.find_first_of("~/", at)) != std::string::npos; at += 2)
     name.replace(at, 1, name[at] == '~' ? "~0" : "~1");

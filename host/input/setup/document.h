@@ -24,6 +24,9 @@ struct SetupDocument {
 SetupDocument read_setup_document(const std::filesystem::path &file);
 SetupDocument parse_setup_document(std::string_view text, const std::filesystem::path &file);
 
+// Whether the document puts nodes of its scene somewhere, or sensors and illuminators at nodes.
+bool names_nodes(const SetupDocument &document);
+
 // A name as a part of a JSON pointer.
 std::string escaped(std::string name);
 

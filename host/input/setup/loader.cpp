@@ -47,12 +47,19 @@ ordered_json with_all_defaults(json document, const ordered_json &schema) {
   return setup;
 }
 
-ordered_json checked_setup(const SetupDocument &source) {
-  static const json schema = json::parse(setup_schema_text);
+// As every command but `correct` asks for it.
+json schema_with_scene() {
+  json schema = json::parse(setup_schema_text);
+  schema.at("required").insert(schema.at("required").begin(), "scene");
+  return schema;
+}
+
+ordered_json checked_setup(const SetupDocument &source, bool with_scene = true) {
+  static const json any_schema = json::parse(setup_schema_text), scene_schema = schema_with_scene();
   static const ordered_json ordered_schema = ordered_json::parse(setup_schema_text);
   json document = source.json;
   fill_presets(document);
-  check_schema(document, schema, source.root());
+  check_schema(document, with_scene ? scene_schema : any_schema, source.root());
   refuse_second_pattern(document, source.root());
   return with_all_defaults(document, ordered_schema);
 }
@@ -136,7 +143,7 @@ void warn_of_unused_others(const Place &sensors, Setup &setup) {
 
 // A scene's file, or what stands for it, and what moves in it.
 struct SceneSource {
-  std::filesystem::path file;
+  std::filesystem::path file; // empty: the setup has no scene
   SceneAtTime at;
   const GltfFile *gltf; // null: it has no file
 };
@@ -188,7 +195,7 @@ void warn(const SceneSource &source, const Place &root, Setup &setup) {
   std::ranges::copy(implausibilities(setup, root), std::back_inserter(setup.warnings));
   warn_of_unused_others(root / "sensors", setup);
   warn_of_unseen_harmonics(root / "sensors", setup);
-  if (setup.start.scene.shape_count() == 0)
+  if (setup.start.scene.shape_count() == 0 && !source.file.empty())
     setup.warnings.push_back(
         input_warning(warning_code("empty-scene"), Place{source.file},
                       "the scene has neither triangles nor points, nothing will be seen; name another "
@@ -284,6 +291,20 @@ Setup SetupLoader::load(const SetupDocument &document) {
   return setup;
 }
 
+namespace {
+
+// `setup` has its as_used; the scene has no nodes and does not move.
+void fill_without_nodes(const SceneSource &source, const char *why, const Place &root, Setup &setup) {
+  if (!setup.as_used.at("nodes").empty())
+    throw input_error(root / "nodes", why);
+  const Trajectories trajectories = read_trajectories(setup.as_used, root);
+  setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames", trajectories);
+  setup.as_used.at("frames")["count"] = setup.frames.count;
+  fill(source, source.at(setup.frames.start_s), root, trajectories, setup);
+}
+
+} // namespace
+
 Setup SetupLoader::load(const SetupDocument &document, const std::shared_ptr<const Scene> &given) {
   const Place root = document.root();
   check_frames(document, root);
@@ -294,13 +315,21 @@ Setup SetupLoader::load(const SetupDocument &document, const std::shared_ptr<con
     with_scene.json["scene"] = given_scene;
   Setup setup;
   setup.as_used = checked_setup(with_scene);
-  if (!setup.as_used.at("nodes").empty())
-    throw input_error(root / "nodes", "expected none, as the scene that is given has no nodes");
-  const Trajectories trajectories = read_trajectories(setup.as_used, root);
-  setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames", trajectories);
-  setup.as_used.at("frames")["count"] = setup.frames.count;
   const auto at = [given](double) { return GltfScene{given_scene, *given, {}}; };
-  fill({given_scene, at, nullptr}, at(setup.frames.start_s), root, trajectories, setup);
+  fill_without_nodes({given_scene, at, nullptr}, "expected none, as the scene that is given has no nodes",
+                     root, setup);
+  return setup;
+}
+
+Setup SetupLoader::load_without_scene(const SetupDocument &document) {
+  const Place root = document.root();
+  check_frames(document, root);
+  Setup setup;
+  setup.as_used = checked_setup(document, false);
+  const FilesRead beside_scene(document.folder);
+  const auto at = [](double) { return GltfScene{}; };
+  fill_without_nodes({{}, at, nullptr}, "expected none, as the setup has no scene", root, setup);
+  setup.inputs = beside_scene.list();
   return setup;
 }
 

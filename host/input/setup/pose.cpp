@@ -34,6 +34,10 @@ Pose looking_at(const ordered_json &pose, const Place &place) {
 
 Pose at_node(const std::string &name, const Place &place, const GltfScene &scene) {
   const std::string quoted = in_quotes(name), file = scene.file.string();
+  if (scene.file.empty())
+    throw input_error(place, fmt::format("the setup has no \"scene\", of which {} could be a node; expected "
+                                         "another kind of pose, or a scene",
+                                         quoted));
   const auto node = std::ranges::find(scene.nodes, name, &NamedNode::name);
   if (node == scene.nodes.end())
     throw input_error(place, absent_node_text(name, scene.file, scene.nodes));

@@ -109,6 +109,8 @@ public:
   Setup load(const SetupDocument &document);
   // With this scene, which has no nodes and does not move, in place of a file; the document names none.
   Setup load(const SetupDocument &document, const std::shared_ptr<const Scene> &given);
+  // For what looks at no scene: the document may name one, which is not read. Poses at nodes are errors.
+  static Setup load_without_scene(const SetupDocument &document);
 
 private:
   struct Files;

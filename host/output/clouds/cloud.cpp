@@ -42,6 +42,12 @@ PointCloud::PointCloud(const Sensor &sensor, const ChannelSet &channels)
     brightest_ = std::max(spread.robust.max, 0.0);
 }
 
+const char *PointCloud::way_of_distances() const {
+  if (distance_.quantity != "range_m")
+    return "as measured";
+  return first_of(channels_, "correction_mm") ? "corrected" : "as the scene has it";
+}
+
 void PointCloud::for_each(const Use &use) const {
   const Lens lens(sensor_);
   const Pose &world_from_camera = sensor_.world_from_camera;

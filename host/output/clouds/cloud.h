@@ -30,6 +30,8 @@ public:
   const Sensor &sensor() const { return sensor_; }
   const ChannelSet &channels() const { return channels_; }
   const Channel &distance() const { return distance_; }
+  // How they came about, for people: "as measured", "corrected" or "as the scene has it".
+  const char *way_of_distances() const;
 
   // Calls use(index of the pixel, point), row by row.
   using Use = std::function<void(std::size_t pixel, const glm::dvec3 &point_m)>;

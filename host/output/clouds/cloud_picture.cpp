@@ -43,7 +43,8 @@ void draw_scale(Canvas &canvas, const CloudView &view) {
 }
 
 std::string caption_of(const PointCloud &cloud) {
-  std::string text = cloud.distance().name() + " as measured, seen from the side";
+  std::string text =
+      fmt::format("{} {}, seen from the side", cloud.distance().name(), cloud.way_of_distances());
   if (cloud.brightest())
     text += fmt::format("; colour: square root of amplitude, yellow from {} W/(m² sr)",
                         value_text(*cloud.brightest()));

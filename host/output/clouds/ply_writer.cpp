@@ -32,7 +32,8 @@ std::vector<const Channel *> scalars_of(const PointCloud &cloud) {
   };
   add(first_of(cloud.channels(), "amplitude"));
   add(&cloud.distance());
-  for (const char *quantity : {"range_m", "deformation_mm", "object_id"})
+  for (const char *quantity :
+       {"range_m", "deformation_mm", "correction_mm", "normal_error_mm", "status", "object_id"})
     add(first_of(cloud.channels(), quantity));
   return scalars;
 }
@@ -55,14 +56,14 @@ std::string pose_text(const Pose &pose) {
 }
 
 std::string comments_of(const PointCloud &cloud, const FrameLabel &label) {
-  std::string text =
-      fmt::format("comment pmdsim {}\n"
-                  "comment sensor {}, frame {}, {} s\n"
-                  "comment x y z: world frame (glTF's, right-handed, +Y up), metres; at {} along each "
-                  "pixel's ray, as measured\n"
-                  "comment world_from_camera, 3 rows of 4 (camera: x right, y down, z forward):{}\n",
-                  PMDSIM_VERSION, quoted(label.sensor.name), label.frame, label.time_s,
-                  cloud.distance().name(), pose_text(label.sensor.world_from_camera));
+  std::string text = fmt::format(
+      "comment pmdsim {}\n"
+      "comment sensor {}, frame {}, {} s\n"
+      "comment x y z: world frame (glTF's, right-handed, +Y up), metres; at {} along each "
+      "pixel's ray, {}\n"
+      "comment world_from_camera, 3 rows of 4 (camera: x right, y down, z forward):{}\n",
+      PMDSIM_VERSION, quoted(label.sensor.name), label.frame, label.time_s, cloud.distance().name(),
+      cloud.way_of_distances(), pose_text(label.sensor.world_from_camera));
   if (cloud.brightest())
     text += fmt::format("comment red green blue: square root of amplitude over {:.6g} W/(m^2 sr)\n",
                         *cloud.brightest());

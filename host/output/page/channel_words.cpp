@@ -1,5 +1,6 @@
 #include "host/output/page/channel_words.h"
 
+#include "engine/correction/corrected_channels.h"
 #include "engine/model/channel_names.h"
 
 #include <algorithm>
@@ -11,8 +12,9 @@ namespace pmdsim {
 namespace {
 
 constexpr std::string_view deformation = "deformation_mm";
-constexpr const char *measured = "Measured", *errors = "Error and noise", *multipath = "Light that bounces",
-                     *truth = "Ground truth", *raw = "The camera's single images", *more = "More";
+constexpr const char *measured = "Measured", *corrected = "Corrected", *errors = "Error and noise",
+                     *multipath = "Light that bounces", *truth = "Ground truth",
+                     *raw = "The camera's single images", *more = "More";
 
 struct Row {
   std::string_view name, title;
@@ -58,6 +60,16 @@ constexpr auto rows = std::to_array<Row>({
     {"tap_b_e", "electrons of tap B, image", raw},
     {"tap_a_dn", "numbers of tap A, image", raw},
     {"tap_b_dn", "numbers of tap B, image", raw},
+});
+
+constexpr auto corrected_titles = std::to_array<Row>({
+    {"range_m", "corrected range", corrected},
+    {"x_m", "corrected point, x", corrected},
+    {"y_m", "corrected point, y", corrected},
+    {"z_m", "corrected point, z", corrected},
+    {"correction_mm", "correction", corrected},
+    {"normal_error_mm", "error by the normal", errors},
+    {"status", "status", corrected},
 });
 
 // Several frequencies' channels of one kind stand together.
@@ -124,6 +136,20 @@ ChannelWords words_of(std::string_view channel_name, bool is_integer) {
           scale_of(name, known.row, is_integer),
           rank_of(name, group),
           static_cast<std::size_t>(row - rows.begin()) * places_of_row + known.tap.value_or(0)};
+}
+
+ChannelWords corrected_words_of(std::string_view channel_name, bool is_integer) {
+  const auto row = std::ranges::find(corrected_channel_rows, channel_name, &CorrectedChannelRow::name);
+  ChannelWords words = words_of(channel_name, is_integer);
+  if (row == corrected_channel_rows.end())
+    return words;
+  const auto named = std::ranges::find(corrected_titles, channel_name, &Row::name);
+  words.title = named == corrected_titles.end() ? channel_name : named->title;
+  words.group = named == corrected_titles.end() ? more : named->group;
+  words.about = row->about;
+  words.none = "not corrected";
+  words.at = static_cast<std::size_t>(row - corrected_channel_rows.begin());
+  return words;
 }
 
 std::string_view scale_name(PageScale scale) {

@@ -30,6 +30,9 @@ struct ChannelWords {
 // Any name will do: what nobody knows is called by its name and coloured as `is_integer` says.
 ChannelWords words_of(std::string_view channel_name, bool is_integer);
 
+// The same of a frame that `correct` left, which has its own range_m and z_m.
+ChannelWords corrected_words_of(std::string_view channel_name, bool is_integer);
+
 // As the page's scripts have them: "sequential".
 std::string_view scale_name(PageScale scale);
 

@@ -47,9 +47,12 @@ bool is_integer(const ReadChannel &channel) {
 
 ShownFrame shown_frame(const PageFrame &frame, const PagePlan &plan) {
   ReadFrame read = read_frame(frame.file);
+  const bool is_corrected =
+      std::ranges::find(read.channels, "correction_mm", &ReadChannel::name) != read.channels.end();
   ShownFrame shown{(read.resolution + plan.pixel_step - 1u) / plan.pixel_step, {}};
   for (ReadChannel &channel : read.channels) {
-    ChannelWords words = words_of(channel.name, is_integer(channel));
+    ChannelWords words = is_corrected ? corrected_words_of(channel.name, is_integer(channel))
+                                      : words_of(channel.name, is_integer(channel));
     if (!plan.has(words.rank))
       continue;
     if (plan.pixel_step > 1)

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr const char *expected = "expected what render or deform leaves beside its frames";
+constexpr const char *expected = "expected what render, deform or correct leaves beside its frames";
 
 // In the directory itself and not hidden.
 bool is_plain_name(const std::string &name) {

@@ -13,7 +13,7 @@ namespace pmdsim {
 namespace {
 
 std::string csv_header(const ChannelSet &channels) {
-  std::string header = "column,x_m,angle_deg";
+  std::string header = "column,chip_x_m,angle_deg";
   for (const Channel &channel : channels.channels)
     header += ',' + channel.name();
   return header + '\n';

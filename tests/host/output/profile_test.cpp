@@ -47,7 +47,7 @@ TEST_CASE("the profile's table holds the middle row") {
                             {{"z_m", "m", std::span<const float>(depth)},
                              {"object_id", "", std::span<const std::uint32_t>(object)}}};
   CHECK(profile_lines(channels, sensor) ==
-        std::vector<std::string>{"column,x_m,angle_deg,z_m,object_id", "0,-1,-45,3,7", "1,1,45,nan,8"});
+        std::vector<std::string>{"column,chip_x_m,angle_deg,z_m,object_id", "0,-1,-45,3,7", "1,1,45,nan,8"});
 }
 
 TEST_CASE("the profile's angles are those of the lens's rays, and its channels carry their frequency") {
@@ -59,7 +59,7 @@ TEST_CASE("the profile's angles are those of the lens's rays, and its channels c
   const std::vector<float> distance{1.f, 2.f};
   const ChannelSet channels{{2, 1}, {{"distance_m", "m", std::span(distance), 1}}};
   const std::vector<std::string> lines = profile_lines(channels, sensor);
-  CHECK(lines.at(0) == "column,x_m,angle_deg,f1.distance_m");
+  CHECK(lines.at(0) == "column,chip_x_m,angle_deg,f1.distance_m");
   CHECK(std::stod(lines.at(2).substr(4)) == Approx(180.0 / 3.14159265358979));
 }
 

@@ -57,7 +57,7 @@ TEST_CASE("render writes only the channels that are asked for, with the bytes th
     CHECK(bytes_in(wall.space / ("some/pmd_0000." + name + ".npy")) ==
           bytes_in(wall.space / ("all/pmd_0000." + name + ".npy")));
   CHECK(bytes_in(wall.space / "some/pmd_0000.profile.csv")
-            .starts_with("column,x_m,angle_deg,distance_m,z_m\n"));
+            .starts_with("column,chip_x_m,angle_deg,distance_m,z_m\n"));
   CHECK(manifest_in(wall.space / "all").at("channels").is_null());
   CHECK(manifest_in(wall.space / "some").at("channels") == nlohmann::json{"distance_m", "z_m"});
   CHECK(manifest_in(wall.space / "some").at("setup") == manifest_in(wall.space / "all").at("setup"));

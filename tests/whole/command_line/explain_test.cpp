@@ -54,6 +54,11 @@ TEST_CASE("channels and exit codes are explained") {
   CHECK(holds(output_of({"explain", "multipath_m"}), "channel that render writes"));
   CHECK(holds(output_of({"explain", "f1.tap_a_e3"}), "tap_a_e0, tap_a_e1"));
   CHECK(holds(output_of({"explain", "deformation_mm"}), "deform"));
+  for (const char *channel : {"status", "correction_mm", "normal_error_mm"})
+    CHECK(holds(output_of({"explain", channel}), "channel that correct writes"));
+  const std::string ranges = output_of({"explain", "range_m"});
+  CHECK(holds(ranges, "channel that render writes"));
+  CHECK(holds(ranges, "channel that correct writes"));
   CHECK(holds(output_of({"explain", "exit", "8"}), "exit 8"));
   CHECK(output_of({"explain", "exit 8"}) == output_of({"explain", "8"}));
   CHECK(holds(output_of({"explain", "exit"}), "exit 130"));

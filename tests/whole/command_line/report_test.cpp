@@ -99,7 +99,7 @@ TEST_CASE("what a report cannot be made of is refused before anything is measure
   check_refusal(run_pmdsim(small.measuring("render", {"--report", "--format", "npy,png"})), 2,
                 {"--report: it is made of the frames' files, expected exr or h5 in --format"});
   check_refusal(run_pmdsim({"report", small.work / "none"}), 3,
-                {"none/manifest.json: no such file", "expected what render or deform leaves"});
+                {"none/manifest.json: no such file", "expected what render, deform or correct leaves"});
   small.measure("render", {"--format", "png,csv"});
   check_refusal(run_pmdsim({"report", small.work / "out"}), 3,
                 {small.work / "out/manifest.json",

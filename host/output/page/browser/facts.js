@@ -58,7 +58,7 @@ function accuracyFacts(head, entry) {
   return [
     ['mode', modes[entry.mode ?? head.mode] ?? entry.mode],
     ['error asked for', asked && `at most ${asked}`],
-    ['error claimed', claimed ? `at most ${claimed}` : 'nothing is claimed'],
+    ['error claimed', claimed ? `at most ${claimed}` : entry.mode && 'nothing is claimed'],
     ['error found', found ? `${found}, in ${entry.checked_pixels} pixels that were computed again` : ''],
     ['returns beyond the error', entry.unpromised > 0 ? String(entry.unpromised) : ''],
     ['precision', entry.precision],
@@ -92,13 +92,24 @@ function deformationFacts({told}) {
   });
 }
 
+// What `correct` found of an image.
+function correctionFacts({correction}) {
+  if (!correction) return [];
+  const {pixels, noise_um} = correction;
+  return [
+    ['image', correction.image],
+    ['corrected', pixels && `${pixels.corrected + pixels.edge} pixels, ${pixels.edge} of them at edges`],
+    ['noise of ranges', typeof noise_um === 'number' && lengthText(1e-6 * noise_um)],
+  ];
+}
+
 function writeFacts() {
   const {head} = run, {entry} = shown.frame;
   const rows = [
     ['made by', `${head.program ?? 'pmdsim'} ${head.version ?? ''} ${head.command ?? ''}`],
     ['device', head.device],
     ['driver', head.driver],
-    ...deformationFacts(shown.frame), ...accuracyFacts(head, entry), ...signalFacts(entry),
+    ...correctionFacts(head), ...deformationFacts(shown.frame), ...accuracyFacts(head, entry), ...signalFacts(entry),
     ['run', head.run],
   ];
   const body = document.createElement('tbody');
@@ -170,7 +181,7 @@ function writeRun() {
   const {head} = run;
   document.title = `${run.title}: pmdsim ${head.command ?? ''}`;
   part('title').textContent = run.title;
-  const device = head.device ?? 'unknown device';
+  const device = head.correction ? head.correction.image : head.device ?? 'unknown device';
   part('summary').textContent = `pmdsim ${head.version ?? ''} ${head.command ?? ''}, ${device}`;
   listInto(part('warnings'), 'Warnings of the run:', warnings());
   part('left-out').hidden = run.left_out.length === 0;

@@ -2,7 +2,7 @@
 
 function firstQuantity() {
   const quantities = shown.frame.channels.map(channel => channel.quantity);
-  const first = ['deformation_mm', 'multipath_m', 'unwrapped_distance_m', 'distance_m', 'amplitude'];
+  const first = ['deformation_mm', 'correction_mm', 'multipath_m', 'unwrapped_distance_m', 'distance_m', 'amplitude'];
   return first.find(name => quantities.includes(name)) ?? quantities[0];
 }
 

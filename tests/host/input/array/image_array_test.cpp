@@ -123,7 +123,15 @@ TEST_CASE("rows of numbers as text") {
   CHECK(std::isnan(file.read("1 nan\n2 3\n").values[1]));
   CHECK_THAT(file.refusal("1,2\n3\n"), Contains(":2: expected 2 numbers as in the rows before, found 1"));
   CHECK_THAT(file.refusal("1,2\n3,x\n"), Contains(":2:3: expected a number, found \"x\""));
-  CHECK_THAT(file.refusal("1,,2\n"), Contains("expected a number"));
+  CHECK(std::isnan(file.read("1,,2\n").values[1]));
+  CHECK(std::isnan(file.read(";2.5\n3;4\n").values[0]));
+  CHECK(file.read("c0,c1\n1,2\n3,4\n").values == std::vector<double>{1, 2, 3, 4});
+  CHECK(file.read("# m\n\"left\" _right\n1 2\n").values == std::vector<double>{1, 2});
+  CHECK_THAT(file.refusal("1,2\nc0,c1\n"), Contains(":2:1: expected a number, found \"c0\""));
+  CHECK_THAT(file.refusal("c0,c1\nc2,c3\n"), Contains(":2:1: expected a number"));
+  CHECK_THAT(file.refusal("{\n1\n"), Contains(":1:1: expected a number"));
+  CHECK_THAT(file.refusal("1,5;2,5\n"),
+             Contains(":1:1: expected a number with a decimal point, not a comma"));
   CHECK_THAT(file.refusal("\n# nothing\n"), Contains("found no number"));
   CHECK_THAT(file.refusal(std::string("GIF89a\0\0", 8)), Contains("expected an image as NPY"));
 }

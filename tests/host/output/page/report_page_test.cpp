@@ -199,10 +199,11 @@ TEST_CASE("what is no run's directory is refused") {
         "{\"frames\": [{\"sensor\": \"a\", \"frame\": -1, \"outputs\": {}}]}"}) {
     run.folder.write("manifest.json", text);
     INFO(text);
-    CHECK(run.refusal() == "is no manifest, expected what render or deform leaves beside its frames");
+    CHECK(run.refusal() ==
+          "is no manifest, expected what render, deform or correct leaves beside its frames");
   }
   std::filesystem::remove(run.folder.path() / "manifest.json");
-  CHECK(run.refusal().find("expected what render or deform leaves") != std::string::npos);
+  CHECK(run.refusal().find("expected what render, deform or correct leaves") != std::string::npos);
 }
 
 TEST_CASE("a frame's file that cannot be read is named") {

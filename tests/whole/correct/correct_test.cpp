@@ -81,7 +81,7 @@ TEST_CASE("what is written and said") {
   CHECK(run.output.find("corrected  64 of 64 pixels") != std::string::npos);
   CHECK(run.output.find("interior, corrected") != std::string::npos);
   CHECK(frame.work.files("corrected") ==
-        std::vector<std::string>{"pmd_0000.cloud.png", "pmd_0000.correction_mm.npy",
+        std::vector<std::string>{"manifest.json", "pmd_0000.cloud.png", "pmd_0000.correction_mm.npy",
                                  "pmd_0000.correction_mm.png", "pmd_0000.normal_error_mm.npy", "pmd_0000.ply",
                                  "pmd_0000.profile.csv", "pmd_0000.range_m.npy", "pmd_0000.range_m.png",
                                  "pmd_0000.status.npy", "pmd_0000.x_m.npy", "pmd_0000.y_m.npy",
@@ -142,15 +142,17 @@ TEST_CASE("a step of two frequencies is unwrapped") {
                                     "\"focal_length_m\": 0.0018", "\"focal_length_m\": 0.0036"));
   REQUIRE(run_pmdsim({"render", setup, "--device", "reference", "--format", "npz", "-o", work / "frame"})
               .exit_code == 0);
-  const auto largest = [&](const std::vector<std::string> &more) {
+  const auto told = [&](const std::vector<std::string> &more) {
     std::vector<std::string> arguments{"correct", setup, work / "frame", "-o", work / "corrected", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Run run = run_pmdsim(arguments);
     INFO(run.errors);
     REQUIRE(run.exit_code == 0);
-    return largest_um(json::parse(run.output));
+    return json::parse(run.output);
   };
-  CHECK(largest({}) > 1e6);
+  const auto largest = [&](const std::vector<std::string> &more) { return largest_um(told(more)); };
+  CHECK(told({}).at("wrong_turns") == 64); // at the wrong turn the wall is no plane, and has no interior
+  CHECK(told({"--unwrap", "7m"}).at("wrong_turns") == 0);
   CHECK(largest({"--unwrap", "7m"}) < promised_um);
   CHECK(largest({"--unwrap", "7m", "--frequency", "1"}) < promised_um);
   CHECK(largest({"--least-range", "1.9m"}) < promised_um);
