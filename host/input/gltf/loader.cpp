@@ -117,6 +117,19 @@ void append_object(const tinygltf::Model &model, const tinygltf::Node &node, con
   }
 }
 
+std::vector<std::string> names_of(const std::vector<NamedNode> &nodes) {
+  std::vector<std::string> names;
+  std::ranges::transform(nodes, std::back_inserter(names), &NamedNode::name);
+  return names;
+}
+
+// Which node may have been meant, as the end of a message; empty where none is near.
+std::string node_meant(const std::string &name, const std::vector<NamedNode> &nodes) {
+  const auto of_mesh = std::ranges::find(nodes, name, &NamedNode::mesh);
+  return of_mesh == nodes.end() ? did_you_mean(name, names_of(nodes))
+                                : fmt::format("; it is the mesh of the node {}", in_quotes(of_mesh->name));
+}
+
 std::vector<std::size_t> indices_of(const std::vector<SceneNode> &nodes) {
   std::vector<std::size_t> indices;
   std::ranges::transform(nodes, std::back_inserter(indices), &SceneNode::index);
@@ -196,14 +209,19 @@ std::string absent_node_text(const std::string &name, const std::filesystem::pat
   const std::string text = fmt::format("no node {} in {}", in_quotes(name), file.string());
   if (nodes.empty())
     return text + ", whose nodes have no names";
-  const auto of_mesh = std::ranges::find(nodes, name, &NamedNode::mesh);
-  if (of_mesh != nodes.end())
-    return fmt::format("{}; it is the mesh of the node {}", text, in_quotes(of_mesh->name));
-  std::vector<std::string> names;
-  for (const NamedNode &node : nodes)
-    names.push_back(node.name);
-  const std::string meant = did_you_mean(name, names);
-  return text + (meant.empty() ? "; expected " + listed_names(names) : meant);
+  if (const std::string meant = node_meant(name, nodes); !meant.empty())
+    return text + meant;
+  return text + "; expected " + listed_names(names_of(nodes));
+}
+
+std::string absent_camera_text(const std::string &name, const std::filesystem::path &file,
+                               const std::vector<NamedNode> &nodes) {
+  if (std::ranges::any_of(nodes, &NamedNode::is_camera) || !node_meant(name, nodes).empty())
+    return absent_node_text(name, file, nodes);
+  const std::string others = nodes.empty() ? "" : "; its nodes are " + listed_names(names_of(nodes), " and ");
+  return fmt::format("no node {} in {}, which has no camera that a pose can name: export it with its cameras "
+                     "(Blender: Include, Cameras), or give position_m and look_at_m{}",
+                     in_quotes(name), file.string(), others);
 }
 
 GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at) {

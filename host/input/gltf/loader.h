@@ -77,6 +77,10 @@ private:
 std::string absent_node_text(const std::string &name, const std::filesystem::path &file,
                              const std::vector<NamedNode> &nodes);
 
+// The same where a camera was asked for: a file without one is told how it gets one, or how to do without.
+std::string absent_camera_text(const std::string &name, const std::filesystem::path &file,
+                               const std::vector<NamedNode> &nodes);
+
 // Throws Error (input): an error in the file is told at its place there ("scene.gltf: /accessors/3: ..."), a
 // file that cannot be read at `named_at`, the place that names it. Features of glTF without which the scene
 // would be another are refused by name; the others that are not simulated are warned of.

@@ -26,7 +26,9 @@ void refuse_second_pattern(const json &document, const Place &root) {
   for (std::size_t i = 0; i < illuminators.size(); ++i)
     if (illuminators[i].at("diodes").contains("file") && illuminators[i].contains("pattern"))
       throw input_error(root / "illuminators" / i / "pattern",
-                        "expected none beside a diode file, which has its own");
+                        "expected none beside a diode file, which has its own; remove it (or by --set "
+                        "illuminators/" +
+                            std::to_string(i) + "/pattern=null)");
 }
 
 // Defaults that depend on more than the key itself are not the schema's to state.
