@@ -142,7 +142,7 @@ GltfFile::GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::M
                    std::shared_ptr<GltfMaterials> materials, const json &document)
     : file_(std::move(file)), model_(std::move(model)), materials_(std::move(materials)),
       nodes_(active_nodes(*model_, Place{file_})), animation_(read_animation(*model_, nodes_, Place{file_})),
-      skins_(read_skins(*model_, nodes_, Place{file_})),
+      skins_(read_skins(*model_, nodes_, Place{file_})), cameras_(gltf_cameras(document)),
       ignored_(ignored_features(document, indices_of(nodes_), Place{file_})) {}
 
 bool GltfFile::moves() const { return animation_.moves(); }
@@ -159,6 +159,11 @@ std::vector<NamedNode> GltfFile::named_nodes() const {
     if (const tinygltf::Node &of = model_->nodes[node.index]; !of.name.empty())
       named.push_back({of.name, {}, mesh_name(*model_, of)});
   return named;
+}
+
+std::optional<GltfPerspective> GltfFile::camera_of(int index) const {
+  const auto camera = static_cast<std::size_t>(index);
+  return index >= 0 && camera < cameras_.size() ? cameras_[camera] : std::nullopt;
 }
 
 std::vector<NodePlacement> GltfFile::placements(const std::vector<PlacedNode> &placed) const {
@@ -196,7 +201,8 @@ GltfScene GltfFile::at(double time_s, const std::vector<PlacedNode> &placed) con
                  : Placement(skins_.weights.at({node.mesh, primitive}), world_from_skin.at(node.skin));
     };
     if (!node.name.empty())
-      result.nodes.push_back({node.name, world_from[i], mesh_name(*model_, node), node.camera >= 0});
+      result.nodes.push_back(
+          {node.name, world_from[i], mesh_name(*model_, node), node.camera >= 0, camera_of(node.camera)});
     if (node.mesh >= 0)
       append_object(*model_, node, object_name(*model_, nodes[naming[i]]), placement_of, root, surfaces,
                     result.scene);

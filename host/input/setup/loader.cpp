@@ -220,6 +220,18 @@ void warn_of_no_cameras(const std::vector<NamedNode> &nodes, const Place &sensor
   }
 }
 
+std::vector<std::optional<SceneCamera>> scene_cameras(const std::vector<NamedNode> &nodes,
+                                                      const ordered_json &sensors) {
+  std::vector<std::optional<SceneCamera>> cameras;
+  for (const ordered_json &sensor : sensors) {
+    const std::string name = sensor.at("pose").value("node", "");
+    const auto node = std::ranges::find(nodes, name, &NamedNode::name);
+    cameras.push_back(node != nodes.end() && node->camera ? std::optional(SceneCamera{name, *node->camera})
+                                                          : std::nullopt);
+  }
+  return cameras;
+}
+
 // `setup` has its as_used and its frames; `scene` is that of the source at their start.
 void fill(const SceneSource &source, GltfScene scene, const Place &root, Trajectories trajectories,
           Setup &setup) {
@@ -230,6 +242,7 @@ void fill(const SceneSource &source, GltfScene scene, const Place &root, Traject
   setup.bounces = bounces_of(setup.as_used, root);
   set_sensors_and_illuminators(root, {scene, trajectories, setup.frames.start_s}, setup);
   warn_of_no_cameras(scene.nodes, root / "sensors", setup);
+  setup.cameras = scene_cameras(scene.nodes, setup.as_used.at("sensors"));
   setup.start.scene = std::move(scene.scene);
   warn(source, root, setup);
   if ((source.gltf && source.gltf->moves()) || has_trajectory(setup.as_used))
