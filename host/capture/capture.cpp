@@ -238,9 +238,9 @@ FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
 }
 
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
-                            const std::set<Format> &formats) {
+                            const std::set<Format> &formats, std::span<const std::string> objects) {
   auto frame = std::make_shared<const FrameToWrite>(FrameToWrite{
-      taken->sensor, at.frame, at.time_s, channels_of(taken->measurement), taken, taken->normals});
+      taken->sensor, at.frame, at.time_s, channels_of(taken->measurement), taken, taken->normals, objects});
   const bool in_sheets = at.is_in_sheets && formats.contains(Format::png);
   return {record_of(*taken, at), [frame = std::move(frame), formats, in_sheets](FrameRecord &record) {
             if (in_sheets)

@@ -98,7 +98,7 @@ std::string render(Capture &capture) {
     if (at.frame == first.value_or(at.frame))
       text += frame_text(*taken, at.frame);
     first = first.value_or(at.frame);
-    return rendered_frame(taken, at, capture.formats());
+    return rendered_frame(taken, at, capture.formats(), capture.setup().start.scene.objects);
   };
   capture.write(measure, bytes_of_largest(capture));
   return text;
@@ -108,7 +108,7 @@ std::string render(Capture &capture) {
 void render_variant(Capture &capture, const std::string &name) {
   const auto measure = [&](const SensorFrame &at) {
     const auto taken = capture.share(capture.take(at, Light::beside_lens, at.next_s, ", variant " + name));
-    MeasuredPart part = rendered_frame(taken, at, capture.formats());
+    MeasuredPart part = rendered_frame(taken, at, capture.formats(), capture.setup().start.scene.objects);
     return MeasuredPart{part.record, [taken, files = std::move(part.files)](FrameRecord &record) {
                           record.told = frame_summary(taken->measurement);
                           return files(record);

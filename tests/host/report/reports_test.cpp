@@ -87,10 +87,10 @@ TEST_CASE("check tells of each illuminator where there are several") {
   setup["illuminators"].push_back({{"name", "lamp"}, {"diodes", "monostatic"}, {"intensity_w_sr", 2}});
   const std::string two = work.write("two.json", setup.dump());
 
-  CHECK_THAT(
-      run_pmdsim({"check", one}).output,
-      Catch::Contains("\n  of ring                8; x -92.388 to 92.388 mm, y -92.388 to 92.388 mm, z 0 mm, "
-                      "axes along +z\n"));
+  CHECK_THAT(run_pmdsim({"check", one}).output,
+             Catch::Contains(
+                 "\n  of ring                16; x -143.19 to 143.19 mm, y -143.19 to 143.19 mm, z 0 mm, "
+                 "axes along +z\n"));
   const Run text = run_pmdsim({"check", two});
   CHECK(text.output.find(
             "\n  of lamp                1, 2 W/sr on their axes, 25.1327 W of modulated power; x 0 mm, "
