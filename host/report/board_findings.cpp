@@ -1,7 +1,5 @@
 #include "host/report/board_findings.h"
 
-#include "host/input/file/input_error.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -88,13 +86,12 @@ std::optional<Warning> turned_away_warning(const Setup &setup, std::size_t numbe
   const nlohmann::ordered_json &all = setup.as_used.at("illuminators");
   const auto found = std::ranges::find_if(
       all, [&](const nlohmann::ordered_json &each) { return each.at("name") == illuminator.name; });
-  const Place place = Place{setup.file} / "illuminators" / static_cast<std::size_t>(found - all.begin());
-  return input_warning(
-      warning_code("diodes-turned-away"), place / "diodes",
-      fmt::format("{} of {} diodes of {} {} away from all that is seen: {}, counted from 0: turn "
-                  "{}, +z of an illuminator is forward",
-                  away, count, illuminator.name, away == 1 ? "points" : "point",
-                  numbers_text(board.turned_away), away == 1 ? "its axis" : "their axes"));
+  return Warning{warning_code("diodes-turned-away"),
+                 fmt::format("{}: /illuminators/{}/diodes", setup.file.string(), found - all.begin()),
+                 fmt::format("{} of {} diodes of {} {} away from all that is seen: {}, counted from 0: turn "
+                             "{}, +z of an illuminator is forward",
+                             away, count, illuminator.name, away == 1 ? "points" : "point",
+                             numbers_text(board.turned_away), away == 1 ? "its axis" : "their axes")};
 }
 
 } // namespace pmdsim

@@ -61,7 +61,7 @@ std::string unknown_columns_text(const std::vector<std::string_view> &header,
     if (std::ranges::find(known, column) == known.end())
       unknown.push_back(in_quotes(column) + key_hint(column, known));
   const auto middle = known.begin() + static_cast<std::ptrdiff_t>(std::min(required, known.size()));
-  return fmt::format("unknown column{} {}; expected {}{}{}", unknown.size() == 1 ? "" : "s",
+  return fmt::format("unknown column{} {}; the columns are {}{}{}", unknown.size() == 1 ? "" : "s",
                      fmt::join(unknown, "; "), fmt::join(known.begin(), middle, ","),
                      middle == known.end() ? "" : " and perhaps ", fmt::join(middle, known.end(), ","));
 }

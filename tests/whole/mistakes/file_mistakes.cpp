@@ -166,7 +166,7 @@ Mistakes table_mistakes() {
            diodes("`No`, `nx` and `dir_y`",
                   with(with(columns, "x_m", "No,x_m"), "axis_x,axis_y", "nx,dir_y") + "1," + diode_row,
                   {"diodes.csv:1: unknown columns \"No\"; \"nx\", did you mean \"axis_x\"?", "\"axis_y\"",
-                   "; expected x_m,y_m,z_m,"},
+                   "the columns are x_m,y_m,z_m,"},
                   "These names, and no other columns"),
            diodes("`lambert` as a pattern", columns + "0,0,0,0,0,1,1,lambert\n",
                   {"diodes.csv:2: pattern: expected an order such as 1", "found \"lambert\"",

@@ -64,7 +64,7 @@ TEST_CASE("What is wrong in a diode file is named with its line") {
       diodes_error("No,x_mm,y_m,z_m,nx,dir_y,axis_z,intensity,pattern\n"),
       EndsWith("diodes.csv:1: unknown columns \"No\"; \"x_mm\", expected \"x_m\", in metres; \"nx\", did you "
                "mean \"axis_x\"?; \"dir_y\", did you mean \"axis_y\"?; \"intensity\", did you mean "
-               "\"intensity_w_sr\", in watts per steradian?; expected "
+               "\"intensity_w_sr\", in watts per steradian?; the columns are "
                "x_m,y_m,z_m,axis_x,axis_y,axis_z,intensity_w_sr,pattern and perhaps roll_deg"));
   CHECK_THAT(diodes_error("x_m," + header), EndsWith("diodes.csv:1: column x_m appears twice"));
   CHECK_THAT(diodes_error(""), EndsWith("diodes.csv:1: expected a header line"));
