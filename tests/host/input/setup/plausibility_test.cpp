@@ -110,6 +110,17 @@ TEST_CASE("A parent of scale 0.001 puts a scene in millimetres right, as its war
     CHECK(glm::distance(mended.start.scene.positions_m[i], 1e-3 * setup.start.scene.positions_m[i]) < 1e-9);
 }
 
+TEST_CASE("A rough metal is told where Blender wrote the file") {
+  SetupFixture fixture;
+  fixture.scene["materials"] = {{{"name", "steel"}, {"pbrMetallicRoughness", {{"roughnessFactor", 0.8}}}}};
+  fixture.scene["meshes"][0]["primitives"][0]["material"] = 0;
+  CHECK(fixture.load().warnings.empty());
+  fixture.scene["asset"]["generator"] = 7; // which no file should have
+  CHECK(fixture.load().warnings.empty());
+  fixture.scene["asset"]["generator"] = "Khronos glTF Blender I/O v4.2.57";
+  CHECK(codes_of(fixture.load()) == Codes{"gltf-metallic"});
+}
+
 TEST_CASE("Diodes that are all turned away are told") {
   SetupFixture fixture;
   fixture.illuminator()["pattern"] = {{"order", 1}};
