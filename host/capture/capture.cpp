@@ -176,6 +176,8 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
   bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
   TakenFrame taken = exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
   taken.warnings = frame_warnings(setup_, taken.sensor, taken.measurement, accuracy_);
+  if (sequence().run().command == "deform") // whose differences do not mind how often a distance wraps
+    std::erase_if(taken.warnings, [](const Warning &warning) { return warning.code == "beyond-ambiguity"; });
   if (accuracy_.strict)
     refuse_warnings(of_frame(taken.warnings, at.frame));
   for (const Warning &warning : taken.warnings)

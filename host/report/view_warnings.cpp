@@ -39,8 +39,9 @@ Warning nothing_in_view(const Setup &setup, const Sensor &sensor, const std::str
 
 Warning beyond_ambiguity(const Setup &setup, const BeyondAmbiguity &beyond, const std::string &place) {
   constexpr double many_times = 3.0; // so much farther than the ambiguity range another unit is likelier
-  const bool is_other_unit =
-      beyond.min_m > many_times * beyond.ambiguity_m && !has_warned_of(setup, "scene-in-millimetres");
+  constexpr double near_m = 10.0;    // where high frequencies wrap many times on purpose
+  const bool is_other_unit = beyond.min_m > std::max(many_times * beyond.ambiguity_m, near_m) &&
+                             !has_warned_of(setup, "scene-in-millimetres");
   return {warning_code("beyond-ambiguity"), place,
           fmt::format("what is visible lies {:.6g} m to {:.6g} m away, {:.3g} % of it beyond the ambiguity "
                       "range of {:.6g} m: distances wrap; {}a lower modulation_hz, or several of them with "
