@@ -112,13 +112,29 @@ configure() {
   (cd "$root" && cmake --preset "$1") >&2
 }
 
-# Builds $1, a ninja target; silent where there is nothing to do.
+# Passes on what ninja says, to stderr, from the first step of a build on; on a terminal its steps share a line.
+tell_of_build() {
+  local line told=
+  while IFS= read -r line; do
+    case $line in
+    'ninja: Entering directory'* | '[0/'*'Re-checking globbed directories...' | 'ninja: no work to do.') continue ;;
+    esac
+    [ "$told" ] || say "building (a few minutes the first time)"
+    told=yes
+    if [ -t 2 ] && [[ $line == \[* ]]; then
+      printf '\r\033[K%.*s' "$(($(tput cols 2>/dev/null || echo 80) - 1))" "$line" >&2
+    else
+      printf '%s\n' "$line" >&2
+    fi
+  done
+  if [ "$told" ] && [ -t 2 ]; then printf '\n' >&2; fi
+}
+
+# Builds $1, a ninja target; silent where there is nothing to do. What has to be installed follows from this file alone.
 build_target() {
-  if [ -f "$build/build.ninja" ] && ninja -C "$build" -n "$1" 2>/dev/null | grep -q 'no work to do'; then return; fi
-  install_missing
+  if [ ! -f "$build/build.ninja" ] || [ "$root/do" -nt "$build/build.ninja" ]; then install_missing; fi
   configure release
-  say "building (a few minutes the first time)"
-  cmake --build "$build" --target "$1" >&2
+  ninja -C "$build" "$1" 2>&1 | tell_of_build
 }
 
 # Debian's own tools make packages; stripped, since nobody debugs with them.

@@ -32,7 +32,7 @@ inline constexpr std::array warning_kinds{
     WarningKind{"claim-above-budget", "A frame's claimed error is far above what was asked for."},
     WarningKind{"dark-diagram-axis", "A radiation diagram is dark on the diode's axis."},
     WarningKind{"diode-inside-body", "Diodes lie inside a closed body, which their light cannot leave."},
-    WarningKind{"diodes-turned-away", "No diode shines on what a sensor sees."},
+    WarningKind{"diodes-turned-away", "Diodes shine on nothing that a sensor sees."},
     WarningKind{"earlier-frames-left", "Frames of another run stay in the output directory."},
     WarningKind{"electronics-left-out", "The command leaves out electronics, scatter and unwrapping."},
     WarningKind{"empty-scene", "The scene has neither triangles nor points."},

@@ -191,6 +191,8 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
   bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
   TakenFrame taken = exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
   taken.warnings = frame_warnings(setup_, taken.sensor, taken.measurement, accuracy_);
+  if (sequence().run().command == "deform") // whose differences do not mind how often a distance wraps
+    std::erase_if(taken.warnings, [](const Warning &warning) { return warning.code == "beyond-ambiguity"; });
   if (accuracy_.strict)
     refuse_warnings(of_frame(taken.warnings, at.frame));
   for (const Warning &warning : taken.warnings)
@@ -253,9 +255,9 @@ FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
 }
 
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
-                            const std::set<Format> &formats) {
+                            const std::set<Format> &formats, std::span<const std::string> objects) {
   auto frame = std::make_shared<const FrameToWrite>(FrameToWrite{
-      taken->sensor, at.frame, at.time_s, channels_of(taken->measurement), taken, taken->normals});
+      taken->sensor, at.frame, at.time_s, channels_of(taken->measurement), taken, taken->normals, objects});
   const bool in_sheets = at.is_in_sheets && formats.contains(Format::png);
   return {record_of(*taken, at), [frame = std::move(frame), formats, in_sheets](FrameRecord &record) {
             if (in_sheets)

@@ -115,9 +115,10 @@ private:
 // A manifest's record of a part of a frame.
 FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at);
 
-// A frame as `render` leaves it: every channel of what was taken. Its files hold on to `taken`.
+// A frame as `render` leaves it: every channel of what was taken. Its files hold on to `taken`, and look at
+// the names of objects, which pictures show.
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
-                            const std::set<Format> &formats);
+                            const std::set<Format> &formats, std::span<const std::string> objects = {});
 
 // The bytes of the setup's largest frame of the wanted channels, with or without its taps and unrounded
 // distances, and with so many maps of doubles more of each frequency.

@@ -22,7 +22,10 @@ void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &c
   const std::string title = picture_title(std::string(preview.quantity), frame, channel.frequency);
   const std::scoped_lock alone(drawing_mutex());
   if (const auto *ids = std::get_if<std::span<const std::uint32_t>>(&channel.values))
-    draw_preview(*ids, resolution, title).write_png(file);
+    draw_preview(*ids, resolution, title,
+                 channel.name() == row_of(&Measurement::object_id).name ? frame.objects
+                                                                        : std::span<const std::string>())
+        .write_png(file);
   else
     draw_preview(std::get<std::span<const float>>(channel.values), resolution, preview, channel.unit, title)
         .write_png(file);

@@ -38,6 +38,7 @@ struct FrameToWrite {
   std::shared_ptr<const void> measured; // what the channels and the normals look at
   // Of each pixel's surface, world frame, turned to the lens; empty where they are not known.
   std::span<const glm::vec3> normals{};
+  std::span<const std::string> objects{}; // their names, for pictures; outlives the frame
 };
 
 // "distance, pmd, frame 0"; of several frequencies "distance, 20 MHz, pmd, frame 0".

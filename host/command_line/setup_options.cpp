@@ -19,9 +19,10 @@ void add_setups(CLI::App &command, WrittenSetups &written, Setups setups) {
   if (setups == Setups::none_or_one)
     files->expected(0, 1);
   command
-      .add_option(
-          "--set", written.changes,
-          "PATH=VALUE, changes the setup, e.g. sensors/0/modulation_hz=[30e6]; may be given several times")
+      .add_option("--set", written.changes,
+                  "PATH=VALUE, changes the setup, e.g. sensors/0/modulation_hz=[30e6]; null takes the key "
+                  "out; may be "
+                  "given several times")
       ->allow_extra_args(false);
   command.add_option(
       "--poses", written.poses,

@@ -91,6 +91,16 @@ std::string without_command(const CLI::App &app) {
                      meant.empty() ? "; expected " + listed_names(commands) : meant);
 }
 
+// What helps whoever looks for an option where it is not, as the end of a message; empty where nothing is
+// known.
+std::string option_hint(const CLI::App &command, const std::string &option) {
+  if (option.starts_with("--tolerance") && has_option(command, "--position"))
+    return "; tolerances are --position 0.1mm, --axis 1deg, --intensity 5%, --phase 1deg and --dead 1%";
+  if (option == "--variants" && has_option(command, "--set"))
+    return fmt::format("; run {} once for each, with --set PATH=VALUE", command.get_name());
+  return "";
+}
+
 std::string unexpected(const CLI::App &app, const CLI::App &command, const std::string &argument) {
   const std::string &name = command.get_name(), option = option_name(argument);
   if (!is_option(argument)) {
@@ -103,7 +113,10 @@ std::string unexpected(const CLI::App &app, const CLI::App &command, const std::
     return fmt::format("{}: expected the command first, as in pmdsim {} {}", option, name, option);
   const Names with = commands_with(app, option);
   if (!with.empty())
-    return fmt::format("{} has no option {}, which belongs to {}", name, option, fmt::join(with, ", "));
+    return fmt::format("{} has no option {}, which belongs to {}{}", name, option, fmt::join(with, ", "),
+                       option_hint(command, option));
+  if (const std::string hint = option_hint(command, option); !hint.empty())
+    return fmt::format("{} has no option {}{}", name, option, hint);
   const auto meant = nearest_name(option, options_of(command));
   return meant ? fmt::format("{} has no option {}, did you mean {}?", name, option, *meant)
                : fmt::format("{} has no option {}", name, option);

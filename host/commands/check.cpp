@@ -53,10 +53,19 @@ ordered_json light_json(const LightFindings &light) {
   return {{"diodes", light.diodes}, {"intensity_w_sr", light.intensity_w_sr}, {"power_w", light.power_w}};
 }
 
-ordered_json illuminator_json(const std::pair<std::string, LightFindings> &illuminator) {
-  ordered_json json{{"name", illuminator.first}};
-  json.update(light_json(illuminator.second));
-  return json;
+ordered_json illuminators_json(const Findings &findings) {
+  ordered_json all = ordered_json::array();
+  for (std::size_t i = 0; i < findings.illuminators.size(); ++i) {
+    const auto &[name, light] = findings.illuminators[i];
+    const auto &[min_m, max_m, largest_lean_deg, turned_away] = findings.boards[i];
+    ordered_json json{{"name", name}};
+    json.update(light_json(light));
+    json["places_m"] = {{min_m.x, max_m.x}, {min_m.y, max_m.y}, {min_m.z, max_m.z}};
+    json["largest_lean_deg"] = largest_lean_deg;
+    json["turned_away"] = turned_away;
+    all.push_back(json);
+  }
+  return all;
 }
 
 // Of all sensors' first frames; nothing without bounces.
@@ -81,10 +90,17 @@ ordered_json bounces_json(const Setup &setup, const std::optional<BouncesForecas
   return json;
 }
 
-// The keys of the first sensor (and its first frequency) stand at the top too.
-ordered_json report_json(const Setup &setup, const Findings &findings) {
+// That nothing is seen comes first: all else is in vain then.
+std::vector<Warning> all_warnings(const Setup &setup, const Findings &findings) {
   std::vector<Warning> warnings = setup.warnings;
   std::ranges::copy(warnings_of(setup, findings), std::back_inserter(warnings));
+  std::ranges::stable_partition(warnings,
+                                [](const Warning &warning) { return warning.code == "nothing-in-view"; });
+  return warnings;
+}
+
+// The keys of the first sensor (and its first frequency) stand at the top too.
+ordered_json report_json(const Setup &setup, const Findings &findings) {
   const ordered_json sensors = array_of(findings.sensors, sensor_json);
   ordered_json report{{"triangles", setup.start.scene.triangles.size()},
                       {"points", setup.start.scene.discs.size()},
@@ -99,9 +115,9 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
   for (const char *key :
        {"image_distance_m", "field_of_view_deg", "pixel_footprint_at_1m_m", "visible_range_m"})
     report[key] = sensors[0][key];
-  report["illuminators"] = array_of(findings.illuminators, illuminator_json);
+  report["illuminators"] = illuminators_json(findings);
   report["sensors"] = sensors;
-  report["warnings"] = array_of(warnings, warning_json);
+  report["warnings"] = array_of(all_warnings(setup, findings), warning_json);
   return report;
 }
 
@@ -138,7 +154,21 @@ std::string field_of_view_text(const FieldOfView &view) {
                      view.diagonal_deg);
 }
 
-std::string sensor_text(const SensorFindings &findings) {
+// The view of the scene's camera where it is another than the sensor's, as lenses come from the setup.
+std::string scene_camera_text(const SceneCamera &camera, const SensorFindings &findings) {
+  constexpr double least_difference_deg = 1.0;
+  const glm::dvec2 view_deg = view_of_camera_deg(camera.view, findings.sensor);
+  if (std::abs(view_deg.x - findings.view.horizontal_deg) <= least_difference_deg)
+    return "";
+  const auto focal_length_m = focal_length_like(camera.view, findings.sensor);
+  return line("  of its camera node",
+              fmt::format("{:.3f}° x {:.3f}° ({}){}", view_deg.x, view_deg.y, in_quotes(camera.node),
+                          focal_length_m
+                              ? fmt::format("; \"focal_length_m\": {:.4g} is as wide", *focal_length_m)
+                              : ""));
+}
+
+std::string sensor_text(const SensorFindings &findings, const std::optional<SceneCamera> &camera) {
   const auto &[sensor, view, visible, shares_beyond, electrons] = findings;
   const glm::dvec2 footprint_mm = 1e3 * view.footprint_at_1m_m;
   std::string text =
@@ -146,7 +176,7 @@ std::string sensor_text(const SensorFindings &findings) {
       line("resolution",
            fmt::format("{} x {}, {}{} x {} samples a pixel", sensor.resolution.x, sensor.resolution.y,
                        sensor.adaptive_samples ? "up to " : "", sensor.samples, sensor.samples)) +
-      line("field of view", field_of_view_text(view)) +
+      line("field of view", field_of_view_text(view)) + (camera ? scene_camera_text(*camera, findings) : "") +
       line("pixel footprint at 1 m", fmt::format("{:.4g} mm x {:.4g} mm", footprint_mm.x, footprint_mm.y)) +
       line("image distance", fmt::format("{:.6g} mm", 1e3 * sensor.image_distance_m()));
   if (sensor.vignetting == Vignetting::cos4)
@@ -177,9 +207,12 @@ std::string light_text(const LightFindings &light) {
 
 std::string illuminators_text(const Findings &findings) {
   std::string text = line("diodes", light_text(findings.light));
-  if (findings.illuminators.size() > 1)
-    for (const auto &[name, light] : findings.illuminators)
-      text += line("  of " + name, light_text(light));
+  for (std::size_t i = 0; i < findings.illuminators.size(); ++i) {
+    const auto &[name, light] = findings.illuminators[i];
+    const std::string of_it =
+        findings.illuminators.size() > 1 ? light_text(light) : fmt::format("{}", light.diodes);
+    text += line("  of " + name, of_it + "; " + board_text(findings.boards[i]));
+  }
   return text;
 }
 
@@ -224,17 +257,18 @@ std::string report_text(const Setup &setup, const Findings &findings) {
           line("bounces", bounces_text(setup)) + line("frames", frames_text(setup.frames)) +
           line("motion", setup.motion ? "the scene moves; what is visible is told of the first frame"
                                       : "nothing moves");
-  for (const SensorFindings &sensor : findings.sensors)
-    text += sensor_text(sensor);
+  for (std::size_t i = 0; i < findings.sensors.size(); ++i)
+    text += sensor_text(findings.sensors[i], setup.cameras.at(i));
   return text;
 }
 
 } // namespace
 
 void run_check(const Options &options) {
-  const Setup setup = requested_setup(options.capture);
+  SetupLoader loader; // whose warnings are told in one list with those of the findings
+  const Setup setup = loader.load(requested_document(options.capture, options.capture.setup));
   const Findings findings = findings_of(setup);
-  const std::vector<Warning> warnings = warnings_of(setup, findings);
+  const std::vector<Warning> warnings = all_warnings(setup, findings);
   if (options.capture.accuracy.strict)
     refuse_warnings(warnings);
   for (const Warning &warning : warnings)

@@ -83,7 +83,7 @@ std::string render(Capture &capture) {
     if (at.frame == first.value_or(at.frame))
       text += frame_text(*taken, at.frame);
     first = first.value_or(at.frame);
-    return rendered_frame(taken, at, capture.formats());
+    return rendered_frame(taken, at, capture.formats(), capture.setup().start.scene.objects);
   };
   capture.write(measure, bytes_of_rendered_frame(capture));
   return text;

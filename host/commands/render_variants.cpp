@@ -22,7 +22,7 @@ using nlohmann::ordered_json;
 void render_variant(Capture &capture, const std::string &name) {
   const auto measure = [&](const SensorFrame &at) {
     const auto taken = capture.share(capture.take(at, Light::beside_lens, at.next_s, ", variant " + name));
-    MeasuredPart part = rendered_frame(taken, at, capture.formats());
+    MeasuredPart part = rendered_frame(taken, at, capture.formats(), capture.setup().start.scene.objects);
     return MeasuredPart{part.record, [taken, files = std::move(part.files)](FrameRecord &record) {
                           record.told = frame_summary(taken->measurement);
                           return files(record);

@@ -3,11 +3,14 @@
 #include "engine/lens/lens.h"
 #include "engine/model/tap_sequence.h"
 #include "engine/reference/reference.h"
+#include "host/report/coarse_view.h"
 #include "host/report/report.h"
+#include "host/report/view_warnings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -58,31 +61,14 @@ double darkest_corner(const Image &image, Vignetting vignetting) {
   return darkest;
 }
 
-constexpr double view_columns = 64.0; // rays that look for what is visible, along the frame's longer side
-
-// The ranges that the rays of a coarse frame of the reference see, which needs no device.
-std::vector<double> visible_ranges_m(const Setup &setup, const Sensor &fine) {
-  Sensor sensor = coarser(fine, std::max(fine.resolution.x, fine.resolution.y) / view_columns);
-  sensor.samples = 1;
-  sensor.modulation_hz.resize(1); // geometry is all that is asked for
-  sensor.waveform = {};
-  sensor.electronics.reset();
-  std::vector<double> ranges_m =
-      reference::simulate(setup.start.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
-                          setup.backscatter)
-          .range_m;
-  std::erase_if(ranges_m, [](double range_m) { return std::isnan(range_m); });
-  return ranges_m;
-}
-
 // 0 where nothing is visible.
 double share_beyond(const std::vector<double> &ranges_m, double ambiguity_m) {
   const auto beyond = std::ranges::count_if(ranges_m, [&](double range_m) { return range_m >= ambiguity_m; });
   return ranges_m.empty() ? 0.0 : static_cast<double>(beyond) / static_cast<double>(ranges_m.size());
 }
 
-SensorFindings findings_of_sensor(const Setup &setup, const Sensor &sensor) {
-  const std::vector<double> ranges_m = visible_ranges_m(setup, sensor);
+SensorFindings findings_of_sensor(const Setup &setup, const Sensor &sensor,
+                                  const std::vector<double> &ranges_m) {
   SensorFindings findings{sensor, field_of_view(sensor), {}, {}, electron_findings(setup, sensor)};
   if (!ranges_m.empty())
     findings.visible = {std::ranges::min(ranges_m), std::ranges::max(ranges_m)};
@@ -112,21 +98,18 @@ LightFindings findings_of_light(const Illuminator &illuminator, DiagramAngles &k
   return light;
 }
 
-void add_view_warnings(std::vector<Warning> &warnings, const SensorFindings &findings) {
-  const auto &[sensor, view, visible, shares_beyond, electrons] = findings;
+void add_view_warnings(std::vector<Warning> &warnings, const Setup &setup, std::size_t number,
+                       const SensorFindings &findings) {
+  const Sensor &sensor = findings.sensor;
+  const VisibleRange &visible = findings.visible;
   if (visible.is_empty())
-    warnings.push_back({warning_code("nothing-in-view"), place_of(sensor),
-                        "no ray of a coarse frame hits the scene; is the camera turned away, or are the "
-                        "scene's back faces culled?"});
-  for (std::size_t i = 0; i < shares_beyond.size(); ++i)
-    if (shares_beyond[i] > 0.0 && !(sensor.unwrap_range_m >= visible.max_m))
-      warnings.push_back(
-          {warning_code("beyond-ambiguity"),
-           fmt::format("{} at {}", place_of(sensor), frequency_text(sensor.modulation_hz[i])),
-           fmt::format("what is visible lies {:.6g} m to {:.6g} m away, {:.3g} % of it beyond the ambiguity "
-                       "range of {:.6g} m: distances wrap; a lower modulation_hz, or several of them with "
-                       "unwrap_range_m, reach farther",
-                       visible.min_m, visible.max_m, 100.0 * shares_beyond[i], sensor.ambiguity_m(i))});
+    warnings.push_back(
+        nothing_in_view(setup, sensor, fmt::format("{}: /sensors/{}/pose", setup.file.string(), number)));
+  for (std::size_t i = 0; i < findings.shares_beyond.size(); ++i)
+    if (findings.shares_beyond[i] > 0.0 && !(sensor.unwrap_range_m >= visible.max_m))
+      warnings.push_back(beyond_ambiguity(
+          setup, {visible.min_m, visible.max_m, findings.shares_beyond[i], sensor.ambiguity_m(i)},
+          fmt::format("{} at {}", place_of(sensor), frequency_text(sensor.modulation_hz[i]))));
 }
 
 void add_tap_warning(std::vector<Warning> &warnings, const Sensor &sensor, const FrameTimes &frames) {
@@ -159,6 +142,22 @@ FieldOfView field_of_view(const Sensor &sensor) {
           darkest_corner(image, sensor.vignetting)};
 }
 
+glm::dvec2 view_of_camera_deg(const GltfPerspective &camera, const Sensor &sensor) {
+  const glm::dvec2 size_m = sensor.pixel_pitch_m * glm::dvec2(sensor.resolution);
+  const double ratio = camera.width_to_height.value_or(size_m.x / size_m.y);
+  return glm::degrees(
+      glm::dvec2(2.0 * std::atan(ratio * std::tan(0.5 * camera.vertical_rad)), camera.vertical_rad));
+}
+
+std::optional<double> focal_length_like(const GltfPerspective &camera, const Sensor &sensor) {
+  if (std::holds_alternative<Fisheye>(sensor.distortion))
+    return std::nullopt;
+  const double width_m = sensor.pixel_pitch_m.x * sensor.resolution.x;
+  const double half_rad = 0.5 * glm::radians(view_of_camera_deg(camera, sensor).x);
+  const double image_distance_m = 0.5 * width_m / std::tan(half_rad);
+  return 1.0 / (1.0 / sensor.focus_distance_m + 1.0 / image_distance_m); // of the thin lens
+}
+
 Sensor coarser(Sensor sensor, double factor) {
   if (factor <= 1.0)
     return sensor;
@@ -179,16 +178,25 @@ Findings findings_of(const Setup &setup) {
     findings.light.power_w += light.power_w;
     findings.illuminators.emplace_back(illuminator.name, light);
   }
-  for (const Sensor &sensor : setup.start.sensors)
-    findings.sensors.push_back(findings_of_sensor(setup, sensor));
+  std::vector<glm::dvec3> seen_m;
+  for (const Sensor &sensor : setup.start.sensors) {
+    const CoarseView view = coarse_view(setup, sensor);
+    findings.sensors.push_back(findings_of_sensor(setup, sensor, view.ranges_m));
+    std::ranges::copy(view.points_m, std::back_inserter(seen_m));
+  }
+  for (const Illuminator &illuminator : setup.start.illuminators)
+    findings.boards.push_back(board_findings(setup, illuminator, seen_m));
   return findings;
 }
 
 std::vector<Warning> warnings_of(const Setup &setup, const Findings &findings) {
   std::vector<Warning> warnings;
   if (setup.start.scene.shape_count() > 0)
-    for (const SensorFindings &sensor : findings.sensors)
-      add_view_warnings(warnings, sensor);
+    for (std::size_t i = 0; i < findings.sensors.size(); ++i)
+      add_view_warnings(warnings, setup, i, findings.sensors[i]);
+  for (std::size_t i = 0; i < findings.boards.size(); ++i)
+    if (const auto away = turned_away_warning(setup, i, findings.boards[i]))
+      warnings.push_back(*away);
   for (const SensorFindings &sensor : findings.sensors) {
     add_tap_warning(warnings, sensor.sensor, setup.frames);
     if (sensor.electrons)

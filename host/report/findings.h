@@ -2,6 +2,7 @@
 // Findings that follow from a setup before anything is measured, and the view of a sensor's lens.
 
 #include "host/input/setup/setup.h"
+#include "host/report/board_findings.h"
 #include "host/report/electron_findings.h"
 
 #include <cmath>
@@ -24,6 +25,11 @@ struct FieldOfView {
 };
 
 FieldOfView field_of_view(const Sensor &sensor);
+
+// The full angles that a glTF camera sees, along the width and the height, degrees.
+glm::dvec2 view_of_camera_deg(const GltfPerspective &camera, const Sensor &sensor);
+// The focal length by which the sensor's image, without distortion, is as wide; nothing for a fisheye.
+std::optional<double> focal_length_like(const GltfPerspective &camera, const Sensor &sensor);
 
 // Columns and rows divided by `factor`, pixels larger in return; a factor up to 1 changes nothing. At least 8
 // of each stay, or all where there are fewer: behind a wide lens the device takes no pixel that sees too
@@ -59,6 +65,7 @@ struct Findings {
   std::size_t shadow_casters;
   LightFindings light{};
   std::vector<std::pair<std::string, LightFindings>> illuminators{}; // with their names
+  std::vector<BoardFindings> boards{};                               // of each of them
   std::vector<SensorFindings> sensors{};
 };
 

@@ -1,9 +1,12 @@
 #include "host/report/frame_findings.h"
 
 #include "engine/model/error.h"
+#include "host/report/findings.h"
 #include "host/report/report.h"
+#include "host/report/view_warnings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <span>
 #include <string_view>
@@ -16,10 +19,6 @@ constexpr double largest_claim = 2.0;            // over what was asked for
 
 bool has_any_above_zero(std::span<const float> values) {
   return std::ranges::any_of(values, [](float value) { return value > 0.0f; });
-}
-
-bool warns_of(const Setup &setup, std::string_view code) {
-  return std::ranges::find(setup.warnings, code, &Warning::code) != setup.warnings.end();
 }
 
 // Of the diodes' light, noise aside. Nothing where no channel tells.
@@ -37,16 +36,32 @@ void add_view(const Setup &setup, const Sensor &sensor, const Measurement &frame
   if (frame.coverage.empty())
     return;
   const bool sees = has_any_above_zero(frame.coverage);
-  if (!sees && !warns_of(setup, "empty-scene"))
-    warnings.push_back({warning_code("nothing-in-view"), place_of(sensor),
-                        "no sample hits the scene: turn or move the sensor by its pose; or give the scene's "
-                        "materials doubleSided, where the lens is behind them"});
-  else if (sees && has_light(frame) == false && !warns_of(setup, "diodes-turned-away") &&
-           !warns_of(setup, "unseen-harmonics"))
+  if (!sees && !has_warned_of(setup, "empty-scene"))
+    warnings.push_back(nothing_in_view(setup, sensor, place_of(sensor)));
+  else if (sees && has_light(frame) == false && !has_warned_of(setup, "diodes-turned-away") &&
+           !has_warned_of(setup, "unseen-harmonics"))
     warnings.push_back(
         {warning_code("all-dark"), place_of(sensor),
          "it sees the scene, but no diode's light reaches what it sees: turn or move the "
          "illuminators by their poses, or look for what stands before them (the channel lit)"});
+}
+
+// Where most of what is seen wraps, in all frequencies together.
+void add_beyond(const Setup &setup, const Sensor &sensor, const Measurement &frame,
+                std::vector<Warning> &warnings) {
+  const Spread seen_m = spread_of(std::span<const float>(frame.range_m));
+  if (std::isnan(seen_m.min) || has_warned_of(setup, "scene-in-millimetres"))
+    return;
+  const double reach_m = common_ambiguity_m(sensor.modulation_hz).value_or(sensor.ambiguity_m(0));
+  if (seen_m.median < reach_m || sensor.unwrap_range_m >= seen_m.max)
+    return;
+  std::size_t seen = 0, beyond = 0;
+  for (const float range_m : frame.range_m) {
+    seen += std::isnan(range_m) ? 0u : 1u;
+    beyond += static_cast<double>(range_m) >= reach_m ? 1u : 0u;
+  }
+  const double share = static_cast<double>(beyond) / static_cast<double>(seen);
+  warnings.push_back(beyond_ambiguity(setup, {seen_m.min, seen_m.max, share, reach_m}, place_of(sensor)));
 }
 
 double share_saturated(const Measurement &frame) {
@@ -83,6 +98,7 @@ std::vector<Warning> frame_warnings(const Setup &setup, const Sensor &sensor, co
                                     const Accuracy &asked) {
   std::vector<Warning> warnings;
   add_view(setup, sensor, measurement, warnings);
+  add_beyond(setup, sensor, measurement, warnings);
   add_saturated(sensor, measurement, warnings);
   if (asked.mode != Mode::exact)
     add_claim(sensor, measurement.accuracy.claimed_m, asked.max_error_m, "--max-error", warnings);

@@ -4,7 +4,6 @@
 #include "host/input/diagram/csv_text.h"
 #include "host/input/file/input_error.h"
 #include "host/input/file/input_file.h"
-#include "host/input/schema/hints.h"
 
 #include <algorithm>
 #include <array>
@@ -28,10 +27,13 @@ public:
   CsvTable(std::filesystem::path file, std::string_view text, const Names &names, std::size_t required)
       : file_(std::move(file)), text_(text), names_(names),
         reader_(file_.string(), text.data(), text.data() + text.size()) {
-    read_header();
+    read_header(required);
+    std::vector<std::string> missing;
     for (std::size_t column = 0; column < required; ++column)
       if (!has(column))
-        throw input_error(here(), fmt::format("missing column {}", names_[column]));
+        missing.emplace_back(names_[column]);
+    if (!missing.empty())
+      throw input_error(here(), missing_columns_text(missing));
     header_ = csv_fields(written());
   }
 
@@ -77,14 +79,14 @@ private:
   // The line read last.
   std::string_view written() const { return line_of_text(text_, here().line); }
 
-  void read_header() {
+  void read_header(std::size_t required) {
     try {
       std::apply([&](auto... names) { reader_.read_header(io::ignore_missing_column, names...); }, names_);
-    } catch (const io::error::extra_column_in_header &extra) {
+    } catch (const io::error::extra_column_in_header &) {
       if (const auto problem = header_problem(written()))
         throw input_error(here(), *problem);
-      throw input_error(here(), fmt::format("unknown column {}{}", in_quotes(extra.column_name),
-                                            key_hint(extra.column_name, {names_.begin(), names_.end()})));
+      throw input_error(
+          here(), unknown_columns_text(csv_fields(written()), {names_.begin(), names_.end()}, required));
     } catch (const io::error::duplicated_column_in_header &doubled) {
       throw input_error(here(), fmt::format("column {} appears twice", doubled.column_name));
     } catch (const io::error::base &) {

@@ -1,8 +1,12 @@
 #include "host/input/diagram/csv_text.h"
 
+#include "host/input/schema/hints.h"
+#include "host/input/words/quotes.h"
+
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <system_error>
 
 namespace pmdsim {
@@ -48,6 +52,22 @@ std::optional<std::string> header_problem(std::string_view line) {
   if (std::ranges::all_of(csv_fields(line), is_number))
     return "expected a header line, the names of the columns, found numbers";
   return std::nullopt;
+}
+
+std::string unknown_columns_text(const std::vector<std::string_view> &header,
+                                 const std::vector<std::string> &known, std::size_t required) {
+  std::vector<std::string> unknown;
+  for (const std::string_view column : header)
+    if (std::ranges::find(known, column) == known.end())
+      unknown.push_back(in_quotes(column) + key_hint(column, known));
+  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(std::min(required, known.size()));
+  return fmt::format("unknown column{} {}; the columns are {}{}{}", unknown.size() == 1 ? "" : "s",
+                     fmt::join(unknown, "; "), fmt::join(known.begin(), middle, ","),
+                     middle == known.end() ? "" : " and perhaps ", fmt::join(middle, known.end(), ","));
+}
+
+std::string missing_columns_text(const std::vector<std::string> &missing) {
+  return fmt::format("missing column{} {}", missing.size() == 1 ? "" : "s", fmt::join(missing, ", "));
 }
 
 std::string row_problem(std::string_view line, std::size_t expected) {

@@ -4,6 +4,8 @@
 #include "host/input/file/input_file.h"
 #include "host/input/schema/schema_check.h"
 #include "host/input/words/file_kind.h"
+#include "host/input/words/near_file.h"
+#include "host/input/words/near_name.h"
 
 #include <algorithm>
 #include <cctype>
@@ -50,6 +52,19 @@ bool is_number_like(std::string_view text) {
   return first.find(text.front()) != first.npos && text.find_first_not_of("0123456789.+-eE") == text.npos;
 }
 
+const std::string pattern_expected = "expected an order such as 1, isotropic, or a diagram's file name";
+
+// What a field that names no file may have been meant by, as the end of a message.
+std::string hint_of_pattern(std::string_view field, const std::filesystem::path &file) {
+  std::string word(field);
+  std::ranges::transform(word, word.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (word.starts_with("lambert") || word == "cos" || word == "cosine")
+    return "; Lambert's law is the order 1";
+  if (const std::string meant = did_you_mean(field, std::vector<std::string>{"isotropic"}); !meant.empty())
+    return meant;
+  return absent_file_hint(file);
+}
+
 } // namespace
 
 std::shared_ptr<const Diagram> DiagramFiles::read(const std::filesystem::path &file,
@@ -79,7 +94,7 @@ Pattern law_in_setup(const ordered_json &pattern, const Place &place, DiagramFil
 
 Pattern law_in_field(std::string_view field, const TextPlace &place, DiagramFiles &diagrams) {
   if (field.empty())
-    throw input_error(place, "pattern: expected an order, isotropic or a diagram's file name");
+    throw input_error(place, "pattern: " + pattern_expected);
   if (is_number_like(field))
     return numbered(cosine, number_of(field, "pattern", place, limits_of(cosine)));
   const std::string_view key = field.substr(0, field.find(' '));
@@ -89,7 +104,12 @@ Pattern law_in_field(std::string_view field, const TextPlace &place, DiagramFile
       return has_number
                  ? numbered(law, number_of(field.substr(key.size() + 1), "pattern", place, limits_of(law)))
                  : numbered(law, 0.0);
-  return {Pattern::Kind::diagram, 0.0, diagrams.read(place.file.parent_path() / field, place)};
+  const std::filesystem::path file = place.file.parent_path() / field;
+  std::error_code ignored;
+  if (std::filesystem::status(file, ignored).type() == std::filesystem::file_type::not_found)
+    throw input_error(place, fmt::format("pattern: {}, found {}: no such file{}", pattern_expected,
+                                         in_quotes(field), hint_of_pattern(field, file)));
+  return {Pattern::Kind::diagram, 0.0, diagrams.read(file, place)};
 }
 
 } // namespace pmdsim

@@ -53,13 +53,22 @@ const json *extension_part(const json &object, std::string_view name) {
   return part == extensions->end() ? nullptr : &*part;
 }
 
+std::string remedy_for(std::string_view extension) {
+  if (extension == "KHR_draco_mesh_compression")
+    return ": export without compression (Blender: Data, Compression off), or pack with meshopt";
+  if (extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" ||
+      extension == "EXT_texture_avif" || extension == "MSFT_texture_dds")
+    return ": export with PNG or JPEG textures";
+  return "";
+}
+
 void refuse_other_extensions(const json &document, const Place &root) {
   const json required = document.value("extensionsRequired", json::array());
   for (std::size_t i = 0; i < required.size(); ++i) {
     const auto &name = required[i].get_ref<const std::string &>();
     if (find(name) == nullptr)
       throw input_error(root / "extensionsRequired" / i,
-                        fmt::format("extension {} is not supported", in_quotes(name)));
+                        fmt::format("extension {} is not supported{}", in_quotes(name), remedy_for(name)));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "host/input/file/input_error.h"
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,10 @@ const std::vector<GltfExtension> &gltf_extensions();
 // The part of the extension `name`, which is read, of an object that has passed the glTF schema; null where
 // there is none.
 const nlohmann::json *extension_part(const nlohmann::json &object, std::string_view name);
+
+// What to export instead of an extension that is not read, as the end of a message; empty where nothing is
+// known.
+std::string remedy_for(std::string_view extension);
 
 // Throws Error (input) at the first required extension without which the file would be another scene here.
 void refuse_other_extensions(const nlohmann::json &document, const Place &root);

@@ -122,10 +122,16 @@ private:
 
   void add_materials() {
     const json &materials = list_at(document_, "materials");
+    const json::json_pointer place("/asset/generator");
+    const bool is_told = document_.contains(place) && document_.at(place).is_string();
+    const std::string generator = is_told ? document_.at(place).get<std::string>() : "";
+    std::map<std::size_t, json> meant;
+    for (const std::size_t i : materials_)
+      meant[i] = as_meant(materials.at(i), generator);
     for (const IgnoredOptics &optics : ignored_optics()) {
       std::vector<std::size_t> found;
       std::ranges::copy_if(materials_, std::back_inserter(found),
-                           [&](std::size_t i) { return optics.is_shown(materials.at(i)); });
+                           [&](std::size_t i) { return optics.is_shown(meant.at(i)); });
       if (!found.empty())
         add(optics.code, root_ / "materials" / found.front(),
             fmt::format("{}, which is ignored: {}",

@@ -117,6 +117,19 @@ void append_object(const tinygltf::Model &model, const tinygltf::Node &node, con
   }
 }
 
+std::vector<std::string> names_of(const std::vector<NamedNode> &nodes) {
+  std::vector<std::string> names;
+  std::ranges::transform(nodes, std::back_inserter(names), &NamedNode::name);
+  return names;
+}
+
+// Which node may have been meant, as the end of a message; empty where none is near.
+std::string node_meant(const std::string &name, const std::vector<NamedNode> &nodes) {
+  const auto of_mesh = std::ranges::find(nodes, name, &NamedNode::mesh);
+  return of_mesh == nodes.end() ? did_you_mean(name, names_of(nodes))
+                                : fmt::format("; it is the mesh of the node {}", in_quotes(of_mesh->name));
+}
+
 std::vector<std::size_t> indices_of(const std::vector<SceneNode> &nodes) {
   std::vector<std::size_t> indices;
   std::ranges::transform(nodes, std::back_inserter(indices), &SceneNode::index);
@@ -129,7 +142,7 @@ GltfFile::GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::M
                    std::shared_ptr<GltfMaterials> materials, const json &document)
     : file_(std::move(file)), model_(std::move(model)), materials_(std::move(materials)),
       nodes_(active_nodes(*model_, Place{file_})), animation_(read_animation(*model_, nodes_, Place{file_})),
-      skins_(read_skins(*model_, nodes_, Place{file_})),
+      skins_(read_skins(*model_, nodes_, Place{file_})), cameras_(gltf_cameras(document)),
       ignored_(ignored_features(document, indices_of(nodes_), Place{file_})) {}
 
 bool GltfFile::moves() const { return animation_.moves(); }
@@ -146,6 +159,11 @@ std::vector<NamedNode> GltfFile::named_nodes() const {
     if (const tinygltf::Node &of = model_->nodes[node.index]; !of.name.empty())
       named.push_back({of.name, {}, mesh_name(*model_, of)});
   return named;
+}
+
+std::optional<GltfPerspective> GltfFile::camera_of(int index) const {
+  const auto camera = static_cast<std::size_t>(index);
+  return index >= 0 && camera < cameras_.size() ? cameras_[camera] : std::nullopt;
 }
 
 std::vector<NodePlacement> GltfFile::placements(const std::vector<PlacedNode> &placed) const {
@@ -183,7 +201,8 @@ GltfScene GltfFile::at(double time_s, const std::vector<PlacedNode> &placed) con
                  : Placement(skins_.weights.at({node.mesh, primitive}), world_from_skin.at(node.skin));
     };
     if (!node.name.empty())
-      result.nodes.push_back({node.name, world_from[i], mesh_name(*model_, node), node.camera >= 0});
+      result.nodes.push_back(
+          {node.name, world_from[i], mesh_name(*model_, node), node.camera >= 0, camera_of(node.camera)});
     if (node.mesh >= 0)
       append_object(*model_, node, object_name(*model_, nodes[naming[i]]), placement_of, root, surfaces,
                     result.scene);
@@ -196,14 +215,19 @@ std::string absent_node_text(const std::string &name, const std::filesystem::pat
   const std::string text = fmt::format("no node {} in {}", in_quotes(name), file.string());
   if (nodes.empty())
     return text + ", whose nodes have no names";
-  const auto of_mesh = std::ranges::find(nodes, name, &NamedNode::mesh);
-  if (of_mesh != nodes.end())
-    return fmt::format("{}; it is the mesh of the node {}", text, in_quotes(of_mesh->name));
-  std::vector<std::string> names;
-  for (const NamedNode &node : nodes)
-    names.push_back(node.name);
-  const std::string meant = did_you_mean(name, names);
-  return text + (meant.empty() ? "; expected " + listed_names(names) : meant);
+  if (const std::string meant = node_meant(name, nodes); !meant.empty())
+    return text + meant;
+  return text + "; expected " + listed_names(names_of(nodes));
+}
+
+std::string absent_camera_text(const std::string &name, const std::filesystem::path &file,
+                               const std::vector<NamedNode> &nodes) {
+  if (std::ranges::any_of(nodes, &NamedNode::is_camera) || !node_meant(name, nodes).empty())
+    return absent_node_text(name, file, nodes);
+  const std::string others = nodes.empty() ? "" : "; its nodes are " + listed_names(names_of(nodes), " and ");
+  return fmt::format("no node {} in {}, which has no camera that a pose can name: export it with its cameras "
+                     "(Blender: Include, Cameras), or give position_m and look_at_m{}",
+                     in_quotes(name), file.string(), others);
 }
 
 GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at) {

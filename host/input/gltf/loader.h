@@ -5,12 +5,14 @@
 #include "engine/model/scene.h"
 #include "host/input/file/input_error.h"
 #include "host/input/gltf/animation.h"
+#include "host/input/gltf/cameras.h"
 #include "host/input/gltf/ignored_features.h"
 #include "host/input/gltf/nodes.h"
 #include "host/input/gltf/skin.h"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,7 @@ struct NamedNode {
   AffineTransform world_from_node;
   std::string mesh{}; // the name of its mesh, if it has one
   bool is_camera = false;
+  std::optional<GltfPerspective> camera{}; // where it is one with a perspective
 };
 
 // Where a named node is put: NodePlacement.
@@ -62,6 +65,7 @@ public:
 
 private:
   std::vector<NamedNode> named_nodes() const; // without their transforms
+  std::optional<GltfPerspective> camera_of(int index) const;
   std::vector<NodePlacement> placements(const std::vector<PlacedNode> &placed) const;
 
   std::filesystem::path file_;
@@ -70,12 +74,17 @@ private:
   std::vector<SceneNode> nodes_;             // of the active scene, where nothing animates them
   Animation animation_;
   Skins skins_;
+  std::vector<std::optional<GltfPerspective>> cameras_; // of the file
   IgnoredFeatures ignored_;
 };
 
 // That a file has no such node, and which was meant or which there are.
 std::string absent_node_text(const std::string &name, const std::filesystem::path &file,
                              const std::vector<NamedNode> &nodes);
+
+// The same where a camera was asked for: a file without one is told how it gets one, or how to do without.
+std::string absent_camera_text(const std::string &name, const std::filesystem::path &file,
+                               const std::vector<NamedNode> &nodes);
 
 // Throws Error (input): an error in the file is told at its place there ("scene.gltf: /accessors/3: ..."), a
 // file that cannot be read at `named_at`, the place that names it. Features of glTF without which the scene

@@ -109,12 +109,21 @@ void check_animations(const json &document, const Place &root) {
   });
 }
 
+// Of a file whose accessors may be empty because they are packed, as the end of a message.
+std::string remedy_of_packing(const json &document) {
+  constexpr const char *draco = "KHR_draco_mesh_compression";
+  const json used = document.value("extensionsUsed", json::array());
+  return std::ranges::find(used, draco) == used.end() ? ""
+                                                      : "; the file is packed with Draco" + remedy_for(draco);
+}
+
 // glTF allows indices that are all 0, and tinygltf refuses them without their place.
 void check_vertex_indices(const json &document, const Place &root) {
   for_each_at(document, "meshes/*/primitives/*/indices", root, [&](const json &index, const Place &) {
     const auto accessor = index.get<std::size_t>();
     if (!document.at("accessors").at(accessor).contains("bufferView"))
-      throw input_error(root / "accessors" / accessor, "missing key \"bufferView\", which indices need");
+      throw input_error(root / "accessors" / accessor,
+                        "missing key \"bufferView\", which indices need" + remedy_of_packing(document));
   });
 }
 

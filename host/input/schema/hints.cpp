@@ -22,7 +22,7 @@ namespace {
 using Meaning = std::pair<std::string_view, std::string_view>;
 
 // Keys that other programs have, and ours.
-constexpr std::array<Meaning, 41> keys_meant{{
+constexpr std::array<Meaning, 58> keys_meant{{
     {"frequency", "modulation_hz"},
     {"frequencies", "modulation_hz"},
     {"freq", "modulation_hz"},
@@ -64,6 +64,23 @@ constexpr std::array<Meaning, 41> keys_meant{{
     {"power_w", "intensity_w_sr"},
     {"radiation", "pattern"},
     {"phase", "modulation_phase_deg"},
+    {"nx", "axis_x"},
+    {"ny", "axis_y"},
+    {"nz", "axis_z"},
+    {"dir_x", "axis_x"},
+    {"dir_y", "axis_y"},
+    {"dir_z", "axis_z"},
+    {"direction_x", "axis_x"},
+    {"direction_y", "axis_y"},
+    {"direction_z", "axis_z"},
+    {"ax", "axis_x"},
+    {"ay", "axis_y"},
+    {"az", "axis_z"},
+    {"intensity", "intensity_w_sr"},
+    {"i", "intensity_w_sr"},
+    {"order", "pattern"},
+    {"lambert", "pattern"},
+    {"law", "pattern"},
 }};
 
 // Values likewise.

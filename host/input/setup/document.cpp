@@ -21,11 +21,42 @@ namespace {
 
 constexpr std::size_t max_setup_bytes = std::size_t{1} << 22;
 
+// Where a setup or a command takes such a file, as the end of a message.
+std::string place_in_setup(std::string_view kind) {
+  if (kind.find("glTF") != kind.npos)
+    return ", which names it as its \"scene\"";
+  if (kind.find("IES") != kind.npos)
+    return ", which names it in an illuminator's \"pattern\"";
+  if (kind.find("picture") != kind.npos || kind.find("NumPy") != kind.npos || kind.find("HDF5") != kind.npos)
+    return "; an image to correct comes behind it, as in pmdsim correct setup.json IMAGE";
+  return "";
+}
+
+// Of a table in place of a setup: what it is, and where a setup names it. Nothing where it is none.
+std::optional<std::string> table_in_setup(std::string_view bytes, const std::string &name) {
+  const std::string_view line = bytes.substr(0, bytes.find('\n'));
+  if (line.find_first_of("{[\"") != line.npos || line.find_first_of(",;\t") == line.npos)
+    return std::nullopt;
+  const auto has = [&](std::string_view column) { return line.find(column) != line.npos; };
+  const auto named = [&](const char *what, const char *key) {
+    return fmt::format("is {}, expected a setup (JSON), which names it: {} = {{\"file\": {}}}", what, key,
+                       in_quotes(name));
+  };
+  if (has("axis_x") || has("x_m,") || has("intensity_w_sr"))
+    return named("a table of diodes", "\"illuminators\"[0].\"diodes\"");
+  if (has("angle_deg") || has("theta_deg"))
+    return named("a table of a radiation diagram", "\"illuminators\"[0].\"pattern\"");
+  return name.ends_with(".csv") ? std::optional("is a table (CSV), expected a setup (JSON)") : std::nullopt;
+}
+
 // In place of what its bytes mean as JSON.
 void refuse_other_kinds(std::string_view bytes, const Place &whole_file) {
   const std::string kind = kind_of_file(whole_file.file, bytes);
   if (!kind.empty())
-    throw input_error(whole_file, fmt::format("is {}, expected a setup (JSON)", kind));
+    throw input_error(whole_file,
+                      fmt::format("is {}, expected a setup (JSON){}", kind, place_in_setup(kind)));
+  if (const auto table = table_in_setup(bytes, whole_file.file.filename().string()))
+    throw input_error(whole_file, *table);
   if (bytes.empty())
     throw input_error(whole_file, "is empty, expected a setup (JSON)");
 }
@@ -66,34 +97,77 @@ std::vector<std::string> names_in(const json &array) {
   return names;
 }
 
-// `what` begins messages, with the path. Returns the value's JSON pointer.
-std::string put(json &document, Place place, const std::string &path, const json &value,
-                const std::string &what) {
+// `what` begins the message where there is none.
+std::size_t index_of(const json &array, const std::string &part, const Place &place,
+                     const std::string &what) {
+  const auto index = index_in(array, part);
+  if (!index)
+    throw input_error(place, fmt::format("{}: expected the index or the name of one of {}, found {}{}", what,
+                                         array.size(), in_quotes(part), did_you_mean(part, names_in(array))));
+  return *index;
+}
+
+std::vector<std::string> parts_of_change(const std::string &path, const Place &place,
+                                         const std::string &what) {
   const auto parts = parts_of(path);
   if (!parts || path.empty())
     throw input_error(place, what + ": expected a path such as sensors/0/focal_length_m");
+  return *parts;
+}
+
+// Where the value of the last of `parts` is, and `place` then; what is absent on the way is made. `what`
+// begins messages, with the path.
+json *made_at(json &document, Place &place, const std::vector<std::string> &parts, const std::string &what) {
   json *at = &document;
-  for (const std::string &part : *parts) {
+  for (const std::string &part : parts) {
     if (at->is_null())
       *at = json::object();
     if (at->is_object()) {
       at = &(*at)[part];
       place = place / part;
     } else if (at->is_array()) {
-      const auto index = index_in(*at, part);
-      if (!index)
-        throw input_error(place,
-                          fmt::format("{}: expected the index or the name of one of {}, found {}{}", what,
-                                      at->size(), in_quotes(part), did_you_mean(part, names_in(*at))));
-      at = &at->at(*index);
-      place = place / *index;
+      const std::size_t index = index_of(*at, part, place, what);
+      at = &at->at(index);
+      place = place / index;
     } else {
       throw input_error(place, fmt::format("{}: expected an object or an array here, found {}", what,
                                            in_quotes(at->dump())));
     }
   }
-  *at = value;
+  return at;
+}
+
+// Returns the value's JSON pointer.
+std::string put(json &document, Place place, const std::string &path, const json &value,
+                const std::string &what) {
+  *made_at(document, place, parts_of_change(path, place, what), what) = value;
   return place.pointer.to_string();
+}
+
+void refuse_near_key(const json &object, const std::string &key, const Place &place,
+                     const std::string &what) {
+  std::vector<std::string> keys;
+  for (const auto &[known, value] : object.items())
+    keys.push_back(known);
+  if (const std::string meant = did_you_mean(key, keys); !meant.empty())
+    throw input_error(place, fmt::format("{}: there is no key {} to remove{}", what, in_quotes(key), meant));
+}
+
+// Takes a key out of its object. One that is not there need not be, but one that is written nearly as another
+// is a mistake. Elements of arrays stay, as null.
+void remove(json &document, Place place, const std::string &path, const std::string &what) {
+  std::vector<std::string> parts = parts_of_change(path, place, what);
+  const std::string key = parts.back();
+  parts.pop_back();
+  json changed = document; // so that nothing is made on the way to what is not there
+  json &holder = *made_at(changed, place, parts, what);
+  if (holder.is_null())
+    return;
+  if (holder.is_object() && holder.erase(key) == 0)
+    return refuse_near_key(holder, key, place, what);
+  if (!holder.is_object())
+    *made_at(holder, place, {key}, what) = nullptr;
+  document = std::move(changed);
 }
 
 } // namespace
@@ -142,7 +216,10 @@ void change(SetupDocument &document, const json &values, const std::string &by) 
   auto source = std::make_shared<JsonSource>(document.source ? *document.source : JsonSource{});
   for (const auto &[path, value] : values.items()) {
     const std::string what = fmt::format("{}cannot set {}", by.empty() ? "" : by + " ", in_quotes(path));
-    source->changes[put(changed, document.root(), path, value, what)] = by;
+    if (value.is_null())
+      remove(changed, document.root(), path, what);
+    else
+      source->changes[put(changed, document.root(), path, value, what)] = by;
   }
   document.json = std::move(changed);
   document.source = std::move(source);

@@ -32,8 +32,8 @@ std::string escaped(std::string name);
 
 // Puts the values of an object into the document: its keys are JSON pointers, with or without the first
 // slash, where an element of an array may be given by its "name". What lies on the way is made where it is
-// absent, but for elements of arrays. `by` is who changes it, for errors, as "--set". Throws Error (input),
-// and changes nothing then.
+// absent, but for elements of arrays. A null takes the key out, so that its default holds. `by` is who
+// changes it, for errors, as "--set". Throws Error (input), and changes nothing then.
 void change(SetupDocument &document, const nlohmann::json &values, const std::string &by = "");
 
 } // namespace pmdsim

@@ -3,9 +3,11 @@
 #include "host/input/schema/limits.h"
 #include "host/input/setup/parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
+#include <iterator>
 #include <numbers>
 
 namespace pmdsim {
@@ -98,6 +100,12 @@ std::vector<Diode> diodes_of(const ordered_json &illuminator, const Place &place
                                   : std::vector<Diode>{diode};
 }
 
+// Where the places of the diodes stand: the setup, or their file.
+Place place_of_diodes(const ordered_json &illuminator, const Place &place) {
+  const ordered_json &diodes = illuminator.at("diodes");
+  return diodes.contains("file") ? Place{place.folder / diodes.at("file").get<std::string>()} : place;
+}
+
 } // namespace
 
 std::vector<Illuminator> illuminators_of(const ordered_json &illuminators, const Place &place,
@@ -114,6 +122,8 @@ std::vector<Illuminator> illuminators_of(const ordered_json &illuminators, const
                       glm::radians(full_turn(illuminator.at("modulation_phase_deg").get<double>())),
                       illuminator.at("modulation_depth").get<double>()});
     diodes += result.back().diodes.size();
+    std::ranges::copy(unit_doubts(result.back().diodes, place_of_diodes(illuminator, place / i / "diodes")),
+                      std::back_inserter(warnings));
     if (diodes > max_diodes)
       throw input_error(place / i / "diodes",
                         fmt::format("expected at most {} diodes in all illuminators", max_diodes));

@@ -26,7 +26,9 @@ void refuse_second_pattern(const json &document, const Place &root) {
   for (std::size_t i = 0; i < illuminators.size(); ++i)
     if (illuminators[i].at("diodes").contains("file") && illuminators[i].contains("pattern"))
       throw input_error(root / "illuminators" / i / "pattern",
-                        "expected none beside a diode file, which has its own");
+                        "expected none beside a diode file, which has its own; remove it (or by --set "
+                        "illuminators/" +
+                            std::to_string(i) + "/pattern=null)");
 }
 
 // Defaults that depend on more than the key itself are not the schema's to state.
@@ -225,6 +227,18 @@ void warn_of_no_cameras(const std::vector<NamedNode> &nodes, const Place &sensor
   }
 }
 
+std::vector<std::optional<SceneCamera>> scene_cameras(const std::vector<NamedNode> &nodes,
+                                                      const ordered_json &sensors) {
+  std::vector<std::optional<SceneCamera>> cameras;
+  for (const ordered_json &sensor : sensors) {
+    const std::string name = sensor.at("pose").value("node", "");
+    const auto node = std::ranges::find(nodes, name, &NamedNode::name);
+    cameras.push_back(node != nodes.end() && node->camera ? std::optional(SceneCamera{name, *node->camera})
+                                                          : std::nullopt);
+  }
+  return cameras;
+}
+
 // `setup` has its as_used and its frames; `scene` is that of the source at their start.
 void fill(const SceneSource &source, GltfScene scene, const Place &root, Trajectories trajectories,
           Setup &setup) {
@@ -235,6 +249,7 @@ void fill(const SceneSource &source, GltfScene scene, const Place &root, Traject
   setup.bounces = bounces_of(setup.as_used, root);
   set_sensors_and_illuminators(root, {scene, trajectories, setup.frames.start_s}, setup);
   warn_of_no_cameras(scene.nodes, root / "sensors", setup);
+  setup.cameras = scene_cameras(scene.nodes, setup.as_used.at("sensors"));
   setup.start.scene = std::move(scene.scene);
   warn(source, root, setup);
   if ((source.gltf && source.gltf->moves()) || has_trajectory(setup.as_used))

@@ -42,6 +42,8 @@ Trajectories read_trajectories(const nlohmann::ordered_json &setup, const Place 
 
 // What of the sensor at `place` is likely to be in another unit than was meant.
 std::vector<Warning> unit_doubts(const Sensor &sensor, const Place &place);
+// The same of the diodes of an illuminator; `place` is where their places stand: in the setup, or a file.
+std::vector<Warning> unit_doubts(const std::vector<Diode> &diodes, const Place &place);
 
 // An element of /sensors. Throws Error (input): also for a distortion that folds over inside the image and a
 // chip that is not in front of the lens.

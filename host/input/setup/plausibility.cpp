@@ -94,7 +94,8 @@ void add_unit(const Setup &setup, const Place &root, std::vector<Warning> &warni
       warning_code("scene-in-millimetres"), root / "scene",
       fmt::format(
           "the scene is {:.4g} m long and nothing of it within the {:.4g} m that are measured without "
-          "ambiguity: are its lengths millimetres? glTF's are metres; scale its root nodes by 0.001",
+          "ambiguity: are its lengths millimetres? glTF's are metres; put all root nodes below one node of "
+          "scale 0.001 (in Blender: select all, scale by 0.001 about the origin, apply the scale, export)",
           longest_m, reach_m)));
 }
 

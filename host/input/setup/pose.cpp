@@ -32,6 +32,8 @@ Pose looking_at(const ordered_json &pose, const Place &place) {
   return {glm::dmat3(x, glm::cross(*forward, x), *forward), position_m};
 }
 
+bool is_of_sensor(const Place &place) { return place.pointer.to_string().starts_with("/sensors/"); }
+
 Pose at_node(const std::string &name, const Place &place, const GltfScene &scene) {
   const std::string quoted = in_quotes(name), file = scene.file.string();
   if (scene.file.empty())
@@ -40,7 +42,8 @@ Pose at_node(const std::string &name, const Place &place, const GltfScene &scene
                                          quoted));
   const auto node = std::ranges::find(scene.nodes, name, &NamedNode::name);
   if (node == scene.nodes.end())
-    throw input_error(place, absent_node_text(name, scene.file, scene.nodes));
+    throw input_error(
+        place, (is_of_sensor(place) ? absent_camera_text : absent_node_text)(name, scene.file, scene.nodes));
   if (std::ranges::count(scene.nodes, name, &NamedNode::name) > 1)
     throw input_error(place, fmt::format("more than one node {} in {}", quoted, file));
   if (!is_position(node->world_from_node.translation_m))

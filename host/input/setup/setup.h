@@ -7,11 +7,13 @@
 #include "engine/model/sensor.h"
 #include "engine/model/warning.h"
 #include "host/input/file/files_read.h"
+#include "host/input/gltf/cameras.h"
 #include "host/input/setup/document.h"
 
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,17 +72,24 @@ inline void set_samples(Sensor &sensor, const SampleChoice &choice) {
   sensor.adaptive_samples = choice.adaptive;
 }
 
+// The scene's camera at whose node a sensor is; the sensor's lens is its own.
+struct SceneCamera {
+  std::string node;
+  GltfPerspective view;
+};
+
 struct Setup {
   std::filesystem::path file;
   Backscatter backscatter = Backscatter::lambert;
   Shadows shadows = Shadows::automatic;
   Bounces bounces;
   FrameTimes frames;
-  Instant start;                        // at the first frame's time
-  nlohmann::ordered_json as_used;       // the setup with every default filled in, as the manifest shows it
-  std::vector<FileRead> inputs;         // the files that it names, and those that these name
-  std::vector<Warning> warnings;        // e.g. that the scene is empty
-  std::shared_ptr<const Motion> motion; // nothing where all stands still
+  Instant start;                  // at the first frame's time
+  nlohmann::ordered_json as_used; // the setup with every default filled in, as the manifest shows it
+  std::vector<FileRead> inputs;   // the files that it names, and those that these name
+  std::vector<Warning> warnings;  // e.g. that the scene is empty
+  std::vector<std::optional<SceneCamera>> cameras; // beside start.sensors; nothing elsewhere
+  std::shared_ptr<const Motion> motion;            // nothing where all stands still
 
   // Everything in its place at a time; `start` where nothing moves. Throws Error (input).
   Instant at(double time_s) const;

@@ -1,6 +1,8 @@
 #include "host/input/setup/parts.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <glm/glm.hpp>
 
 namespace pmdsim {
 namespace {
@@ -13,6 +15,8 @@ constexpr double largest_usual_pitch_m = 1e-2;
 Warning doubt(const Place &place, const std::string &text) {
   return input_warning(warning_code("unusual-value"), place, text);
 }
+
+constexpr double largest_usual_board_m = 2.0; // from an illuminator's origin to a diode
 
 } // namespace
 
@@ -32,6 +36,22 @@ std::vector<Warning> unit_doubts(const Sensor &sensor, const Place &place) {
           doubt(place / "pixel_pitch_m" / static_cast<std::size_t>(axis),
                 fmt::format("{} m is unusually wide; 45 um are written 45e-6", sensor.pixel_pitch_m[axis])));
   return doubts;
+}
+
+std::vector<Warning> unit_doubts(const std::vector<Diode> &diodes, const Place &place) {
+  double farthest_m = 0.0;
+  std::size_t far = 0;
+  for (const Diode &diode : diodes) {
+    const double distance_m = glm::length(diode.position_m);
+    farthest_m = std::max(farthest_m, distance_m);
+    far += distance_m > largest_usual_board_m ? 1u : 0u;
+  }
+  if (far == 0)
+    return {};
+  return {doubt(place,
+                fmt::format("{} of {} diodes lie far away, up to {:.4g} m from the illuminator's origin: are "
+                            "these millimetres? {:.4g} mm are written {:.4g}",
+                            far, diodes.size(), farthest_m, farthest_m, 1e-3 * farthest_m))};
 }
 
 } // namespace pmdsim

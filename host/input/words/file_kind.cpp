@@ -10,7 +10,7 @@ namespace {
 
 using Mark = std::pair<std::string_view, std::string_view>;
 
-constexpr std::array<Mark, 14> first_bytes{
+constexpr std::array<Mark, 16> first_bytes{
     {{"glTF", "a binary glTF scene (.glb)"},
      {"\x1f\x8b", "a file that gzip has packed"},
      {"PK\x03\x04", "a zip archive, as .xlsx and .usdz are"},
@@ -23,6 +23,8 @@ constexpr std::array<Mark, 14> first_bytes{
      {"solid ", "an STL mesh"},
      {"\x89PNG", "a PNG picture"},
      {"v/1\x01", "an EXR picture"},
+     {"\x93NUMPY", "an array of NumPy (.npy)"},
+     {"\x89HDF", "an HDF5 file"},
      {"%PDF", "a PDF file"},
      {"IESNA", "an IES diagram"}}};
 

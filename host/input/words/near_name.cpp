@@ -71,14 +71,14 @@ std::string did_you_mean(std::string_view written, std::span<const std::string> 
   return nearest ? fmt::format(", did you mean {}?", in_quotes(*nearest)) : "";
 }
 
-std::string listed_names(std::span<const std::string> names) {
+std::string listed_names(std::span<const std::string> names, std::string_view before_last) {
   constexpr std::size_t longest_line = 200;
   std::string list;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = in_quotes(names[i]);
     if (i > 0 && list.size() + name.size() > longest_line)
       return fmt::format("{} and {} more", list, names.size() - i);
-    list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + name;
+    list += std::string(i == 0 ? "" : i + 1 == names.size() ? before_last : ", ") + name;
   }
   return list;
 }

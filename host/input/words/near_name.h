@@ -20,7 +20,7 @@ std::optional<std::string> nearest_name(std::string_view written, std::span<cons
 // ", did you mean \"NAME\"?"; empty where none is near.
 std::string did_you_mean(std::string_view written, std::span<const std::string> known);
 
-// "\"a\", \"b\" or \"c\"", or "\"a\", \"b\" and 7 more": as many as fit a line.
-std::string listed_names(std::span<const std::string> names);
+// "\"a\", \"b\" or \"c\"", or "\"a\", \"b\" and 7 more": as many as fit a line; `before_last` parts the last.
+std::string listed_names(std::span<const std::string> names, std::string_view before_last = " or ");
 
 } // namespace pmdsim

@@ -86,8 +86,24 @@ std::vector<KeyEntry> entries_of_constant(const ValueSpread &spread, const Colou
   return entries;
 }
 
+// "3 Cube"; of a long name its beginning, cut between letters of UTF-8.
+std::string id_text(std::uint32_t id, std::span<const std::string> names) {
+  constexpr std::size_t longest = 32;
+  if (id >= names.size())
+    return fmt::format("{}", id);
+  std::string name = names[id];
+  if (name.size() > longest) {
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0u) == 0x80u)
+      --end;
+    name = name.substr(0, end) + "...";
+  }
+  return fmt::format("{} {}", id, name);
+}
+
 // The ids that most pixels show, the most frequent first; then how many more there are.
-std::vector<KeyEntry> entries_of_ids(std::span<const std::uint32_t> ids, std::size_t fitting) {
+std::vector<KeyEntry> entries_of_ids(std::span<const std::uint32_t> ids, std::span<const std::string> names,
+                                     std::size_t fitting) {
   std::map<std::uint32_t, std::size_t> counts;
   for (const std::uint32_t id : ids)
     ++counts[id];
@@ -98,7 +114,7 @@ std::vector<KeyEntry> entries_of_ids(std::span<const std::uint32_t> ids, std::si
   const std::size_t shown = by_count.size() <= room ? by_count.size() : room - 1;
   std::vector<KeyEntry> entries;
   for (std::size_t i = 0; i < shown; ++i)
-    entries.push_back({colour_of_id(by_count[i].first), fmt::format("{}", by_count[i].first)});
+    entries.push_back({colour_of_id(by_count[i].first), id_text(by_count[i].first, names)});
   if (shown < by_count.size())
     entries.push_back({white, fmt::format("{} more", by_count.size() - shown)});
   if (gaps)
@@ -150,7 +166,7 @@ Canvas draw_preview(std::span<const float> values, const glm::uvec2 &resolution,
 }
 
 Canvas draw_preview(std::span<const std::uint32_t> ids, const glm::uvec2 &resolution,
-                    const std::string &title) {
+                    const std::string &title, std::span<const std::string> names) {
   const std::uint32_t block =
       (std::max(resolution.x, resolution.y) + max_preview_side - 1) / max_preview_side;
   const glm::uvec2 shrunk = (resolution + block - 1u) / block;
@@ -158,8 +174,8 @@ Canvas draw_preview(std::span<const std::uint32_t> ids, const glm::uvec2 &resolu
     const std::uint32_t id = ids[std::size_t{row} * block * resolution.x + std::size_t{column} * block];
     return id == no_id ? no_value_colour : colour_of_id(id);
   });
-  return with_list(pixels.get(), shrunk * enlargement_of(resolution), resolution, entries_of_ids(ids, 10),
-                   "id", title);
+  return with_list(pixels.get(), shrunk * enlargement_of(resolution), resolution,
+                   entries_of_ids(ids, names, 10), "id", title);
 }
 
 } // namespace pmdsim

@@ -21,8 +21,8 @@ Canvas draw_preview(std::span<const float> values, const glm::uvec2 &resolution,
 // with a bar in any case.
 Canvas draw_preview(const PreviewImage &image, const Colouring &colouring, const glm::uvec2 &resolution,
                     const std::string &quantity, const std::string &unit, const std::string &title);
-// Ids, no_id for none, with those that most pixels show.
+// Ids, no_id for none, with those that most pixels show and, as far as there are any, their names, UTF-8.
 Canvas draw_preview(std::span<const std::uint32_t> ids, const glm::uvec2 &resolution,
-                    const std::string &title);
+                    const std::string &title, std::span<const std::string> names = {});
 
 } // namespace pmdsim

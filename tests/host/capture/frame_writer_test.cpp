@@ -1,11 +1,37 @@
 // Which files a frame with light that bounces leaves.
 
 #include "host/capture/capture.h"
+#include "host/output/files/output_set.h"
+#include "tests/support/temporary_folder.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
 
 using namespace pmdsim;
+
+TEST_CASE("the picture of object_id has the objects' names") {
+  const auto taken = std::make_shared<TakenFrame>();
+  taken->sensor.name = "pmd";
+  taken->sensor.resolution = {2, 1};
+  taken->measurement.resolution = {2, 1};
+  taken->measurement.object_id = {0, 1};
+  const auto picture = [&](const std::vector<std::string> &names) {
+    MeasuredPart part = rendered_frame(taken, {0, 0.0, 0, "", {}}, {Format::png}, names);
+    const test::TemporaryFolder folder;
+    OutputSet files(folder.path());
+    for (const FileToWrite &file : part.files(part.record))
+      files.add(file.name, file.write);
+    files.publish();
+    REQUIRE(files.paths().size() == 1);
+    std::ifstream in(files.paths()[0], std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const bool is_same = picture({}) == picture({}), has_names = picture({"wall", "ball"}) != picture({});
+  CHECK(is_same);
+  CHECK(has_names);
+}
 
 TEST_CASE("pictures show multipath and its share, and no channel without bounces") {
   const auto taken = std::make_shared<TakenFrame>();

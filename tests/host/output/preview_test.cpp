@@ -91,6 +91,17 @@ TEST_CASE("ids have a colour each, in the image and in the legend") {
   CHECK(area_of(canvas, grey) >= pixel_area + swatch_area);
 }
 
+TEST_CASE("the legend has the names of ids") {
+  const std::vector<std::uint32_t> ids{0, 1, 1, no_id};
+  const std::string longest(200, 'm');
+  const auto width_with = [&](const std::vector<std::string> &names) {
+    return draw_preview(ids, {4, 1}, "title", names).width();
+  };
+  const int without = draw_preview(ids, {4, 1}, "title").width();
+  CHECK(width_with({"wall", "a ball before the wall, green"}) > without);
+  CHECK(width_with({longest, longest}) == width_with({longest.substr(0, 40), longest.substr(0, 40)}));
+}
+
 TEST_CASE("of many ids the legend names a few") {
   std::vector<std::uint32_t> ids(1000);
   std::iota(ids.begin(), ids.end(), 0u);

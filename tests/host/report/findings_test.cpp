@@ -160,6 +160,64 @@ TEST_CASE("check warns of each frequency whose ambiguity range ends before what 
              Catch::Contains(" m away, 50 % of it beyond the ambiguity range of 1.49896 m: distances wrap"));
 }
 
+TEST_CASE("check tells of the diodes that point away from all that is seen") {
+  const Sensor sensor = wide_sensor();
+  SceneBuilder builder;
+  builder.add_wall({2.0, {}, {-10.0, -10.0}, {10.0, 10.0}});
+  Setup setup = setup_of(sensor, builder.scene());
+  setup.file = "setup.json";
+  setup.as_used["illuminators"] = {{{"name", "far"}}, {{"name", "board"}}};
+  Diode diode;
+  diode.pattern = {Pattern::Kind::cosine, 1.0};
+  Illuminator board{"board", sensor.world_from_camera, std::vector<Diode>(12, diode)};
+  const auto told = [&] {
+    setup.start.illuminators = {board};
+    return warnings_of(setup, findings_of(setup));
+  };
+  CHECK(told().empty());
+  board.diodes[7].axis = {0, 0, -1};
+  REQUIRE(told().size() == 1);
+  CHECK(told()[0].code == "diodes-turned-away");
+  CHECK(told()[0].place == "setup.json: /illuminators/1/diodes");
+  CHECK(told()[0].text ==
+        "1 of 12 diodes of board points away from all that is seen: number 7, counted from 0: turn "
+        "its axis, +z of an illuminator is forward");
+  board.diodes[2].axis = {0, -0.6, -0.8};
+  CHECK_THAT(told()[0].text,
+             Catch::StartsWith("2 of 12 diodes of board point away from all that is seen: numbers 2, 7"));
+  const Findings findings = findings_of(setup);
+  CHECK(findings.boards[0].largest_lean_deg == Approx(180.0));
+  board.diodes[7].pattern = {};     // shines all around
+  board.diodes[2].axis = {1, 0, 0}; // to the side: lights a half of the wall
+  CHECK(told().empty());
+  board.diodes[2].axis = {0, 0, -1};
+  setup.bounces.count = 1; // then it may be meant to light what is behind
+  CHECK(told().empty());
+  setup.bounces.count = 0;
+  Sensor rear = sensor; // which sees the wall behind
+  rear.world_from_camera.rotation = rear.world_from_camera.rotation * glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, -1);
+  SceneBuilder both;
+  both.add_wall({2.0, {}, {-10.0, -10.0}, {10.0, 10.0}});
+  setup.start.scene = both.scene();
+  const std::size_t vertices = setup.start.scene.positions_m.size();
+  for (std::size_t i = 0; i < vertices; ++i)
+    setup.start.scene.positions_m.push_back(-setup.start.scene.positions_m[i]);
+  for (std::size_t i = 0, count = setup.start.scene.triangles.size(); i < count; ++i) {
+    Triangle triangle = setup.start.scene.triangles[i];
+    for (std::uint32_t &vertex : triangle.vertices)
+      vertex += static_cast<std::uint32_t>(vertices);
+    setup.start.scene.triangles.push_back(triangle);
+  }
+  for (Surface &surface : setup.start.scene.surfaces)
+    surface.double_sided = true;
+  setup.start.sensors = {sensor, rear};
+  CHECK(told().empty());
+  setup.start.sensors = {sensor};
+  CHECK(told().size() == 1);
+  board.diodes.assign(12, board.diodes[2]); // all of them: an illuminator of its own, for something else
+  CHECK(told().empty());
+}
+
 TEST_CASE("check warns of taps that take longer than the frames leave them") {
   Sensor sensor = wide_sensor();
   sensor.modulation_hz = {20e6, 30e6};

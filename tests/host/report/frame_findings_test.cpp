@@ -5,6 +5,7 @@
 #include "host/report/frame_findings.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace pmdsim;
 
@@ -53,6 +54,33 @@ TEST_CASE("A frame that sees nothing, and one that is dark, are told") {
   CHECK(frame_warnings(empty, Sensor{}, frame, {}).empty()); // which says it all
   frame.coverage.clear();                                    // not asked for
   CHECK(warnings_of(frame).empty());
+}
+
+TEST_CASE("Frames are told of where most of what they see wraps in all frequencies together") {
+  Measurement frame = lit_frame();
+  Setup setup;
+  Sensor sensor;
+  sensor.modulation_hz = {20e6}; // 7.49 m
+  const auto told = [&] { return codes_of(frame_warnings(setup, sensor, frame, {})); };
+  frame.range_m = {NAN, 7.0f, 8.0f, 9.0f};
+  CHECK(told() == Codes{"beyond-ambiguity"});
+  CHECK_THAT(
+      frame_warnings(setup, sensor, frame, {})[0].text,
+      Catch::StartsWith("what is visible lies 7 m to 9 m away, 66.7 % of it beyond the ambiguity range of "
+                        "7.49481 m: distances wrap; a lower"));
+  sensor.modulation_hz = {20e6, 30e6}; // 15 m together
+  CHECK(told().empty());
+  sensor.modulation_hz = {20e6};
+  sensor.unwrap_range_m = 10.0;
+  CHECK(told().empty());
+  sensor.unwrap_range_m = Sensor().unwrap_range_m;
+  frame.range_m = {NAN, 7.0f, 7.2f, 9.0f};
+  CHECK(told().empty());
+  frame.range_m = {700.0f, 900.0f};
+  CHECK_THAT(frame_warnings(setup, sensor, frame, {})[0].text,
+             Catch::Contains("centimetres or millimetres?"));
+  setup.warnings = {{"scene-in-millimetres", "", ""}}; // which says it all
+  CHECK(told().empty());
 }
 
 TEST_CASE("Saturated pixels are told where they are more than one in a hundred") {

@@ -14,7 +14,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char *nothing_hit = "no ray of a coarse frame hits the scene";
+constexpr const char *nothing_hit =
+    "nothing of the scene is in view: its centre lies 180 degrees off the optical axis and 2 m away; turn ";
 
 std::string wall_behind_the_camera() {
   return with(wall_gltf(), R"("mesh": 0)", R"("mesh": 0, "rotation": [0, 1, 0, 0])");
@@ -30,13 +31,52 @@ TEST_CASE("check warns of a scene that is out of view, and of none that is seen"
   const Run behind = run_pmdsim({"check", setup, "--json"});
   CHECK(behind.exit_code == 0);
   CHECK(behind.errors.find(nothing_hit) != std::string::npos);
-  CHECK(json::parse(behind.output)["warnings"].dump().find(nothing_hit) != std::string::npos);
+  CHECK(json::parse(behind.output)["warnings"][0]["text"].get<std::string>().starts_with(nothing_hit));
+  CHECK_THAT(json::parse(behind.output)["warnings"][0]["place"].get<std::string>(),
+             Catch::EndsWith("setup.json: /sensors/0/pose"));
 
   work.write("wall.gltf", wall_gltf());
   const Run before = run_pmdsim({"check", setup, "--json"});
   CHECK(before.exit_code == 0);
   CHECK(before.errors.empty());
   CHECK(json::parse(before.output)["warnings"].empty());
+}
+
+TEST_CASE("check tells first that nothing is in view") {
+  const Workspace work;
+  json wall = json::parse(wall_behind_the_camera());
+  wall["extensionsUsed"] = {"ACME_fog"};
+  work.write("wall.gltf", wall.dump());
+  const Run run = run_pmdsim({"check", work.write("setup.json", small_setup())});
+  INFO(run.errors);
+  CHECK(run.errors.find("[nothing-in-view]") < run.errors.find("[gltf-extension]"));
+  CHECK(run.errors.find("[gltf-extension]") != std::string::npos);
+}
+
+TEST_CASE("check tells what the scene's camera at the sensor's node sees, where it is something else") {
+  const Workspace work;
+  json wall = json::parse(wall_gltf());
+  wall["nodes"].push_back({{"name", "Camera"}, {"camera", 0}});
+  wall["scenes"][0]["nodes"].push_back(1);
+  const double height_rad = 2.0 * std::atan(0.5); // so that twice as wide is 90 degrees
+  wall["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", height_rad}, {"aspectRatio", 2}, {"znear", 0.1}}}}};
+  work.write("wall.gltf", wall.dump());
+  json setup = json::parse(small_setup());
+  json &sensor = setup["sensors"][0];
+  sensor["pose"] = {{"node", "Camera"}};
+  const double pitch_m = sensor["pixel_pitch_m"][0], columns = sensor["resolution"][0];
+  const auto checked = [&] { return run_pmdsim({"check", work.write("setup.json", setup.dump())}).output; };
+  char like[64];
+  std::snprintf(like, sizeof like, "\"focal_length_m\": %.4g is as wide\n", 0.5 * pitch_m * columns);
+  CHECK_THAT(checked(), Catch::Contains("\n  of its camera node     90.000° x 53.130° (\"Camera\"); ") &&
+                            Catch::Contains(like));
+  sensor["focal_length_m"] = 0.5 * pitch_m * columns * 1.01;
+  CHECK_THAT(checked(), !Catch::Contains("camera node"));
+  wall["cameras"] = {{{"type", "orthographic"}}};
+  work.write("wall.gltf", wall.dump());
+  sensor["focal_length_m"] = 0.01;
+  CHECK_THAT(checked(), !Catch::Contains("camera node"));
 }
 
 TEST_CASE("check tells of each illuminator where there are several") {
@@ -47,15 +87,20 @@ TEST_CASE("check tells of each illuminator where there are several") {
   setup["illuminators"].push_back({{"name", "lamp"}, {"diodes", "monostatic"}, {"intensity_w_sr", 2}});
   const std::string two = work.write("two.json", setup.dump());
 
-  CHECK(run_pmdsim({"check", one}).output.find("\n  of ") == std::string::npos);
+  CHECK_THAT(run_pmdsim({"check", one}).output,
+             Catch::Contains(
+                 "\n  of ring                16; x -143.19 to 143.19 mm, y -143.19 to 143.19 mm, z 0 mm, "
+                 "axes along +z\n"));
   const Run text = run_pmdsim({"check", two});
   CHECK(text.output.find(
-            "\n  of lamp                1, 2 W/sr on their axes, 25.1327 W of modulated power\n") !=
-        std::string::npos);
+            "\n  of lamp                1, 2 W/sr on their axes, 25.1327 W of modulated power; x 0 mm, "
+            "y 0 mm, z 0 mm, axes along +z\n") != std::string::npos);
   const json report = json::parse(run_pmdsim({"check", two, "--json"}).output);
   REQUIRE(report["illuminators"].size() == 2);
   CHECK(report["illuminators"][1]["name"] == "lamp");
   CHECK(report["illuminators"][1]["diodes"] == 1);
+  CHECK(report["illuminators"][1]["places_m"] == json{{0, 0}, {0, 0}, {0, 0}});
+  CHECK(report["illuminators"][1]["largest_lean_deg"] == 0);
   CHECK(report["illuminators"][1]["power_w"].get<double>() == Approx(25.1327).epsilon(1e-5));
   CHECK(report["diodes"] == report["illuminators"][0]["diodes"].get<int>() + 1);
 }

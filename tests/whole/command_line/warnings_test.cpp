@@ -39,7 +39,9 @@ TEST_CASE("What frames warn of is told once a run, in the terminal and in the ma
   INFO(run.errors);
   CHECK(run.exit_code == 0);
   CHECK(lines_of(run) == 1);
-  CHECK(run.errors.starts_with("pmdsim: warning: sensor pmd, frame 0: no sample hits the scene: "));
+  CHECK(run.errors.starts_with(
+      "pmdsim: warning: sensor pmd, frame 0: nothing of the scene is in view: its centre "
+      "lies 180 degrees off the optical axis and 2 m away; "));
   CHECK(run.errors.ends_with("; the same of 2 frames more, up to frame 2 [nothing-in-view]\n"));
   const json manifest = manifest_of(work, "out");
   REQUIRE(manifest["warnings"].size() == 1);
@@ -67,7 +69,7 @@ TEST_CASE("With --strict a frame that warns is refused, and nothing of it is lef
   INFO(run.errors);
   CHECK(run.exit_code == 3);
   CHECK(lines_of(run) == 1);
-  CHECK(run.errors.starts_with("pmdsim: error: sensor pmd, frame 0: no sample hits the scene"));
+  CHECK(run.errors.starts_with("pmdsim: error: sensor pmd, frame 0: nothing of the scene is in view"));
   CHECK_FALSE(std::filesystem::exists(work / "out"));
   const Run check = run_pmdsim({"check", setup, "--strict"});
   CHECK(check.exit_code == 3);
@@ -111,6 +113,31 @@ TEST_CASE("Variants of a setup tell of the same once") {
   INFO(run.errors);
   CHECK(run.exit_code == 0);
   CHECK(lines_of(run) == 1);
+}
+
+TEST_CASE("A frame most of which wraps is told of, and where all does, that units may be wrong") {
+  const Workspace work;
+  work.write("wall.gltf", wall_gltf());
+  json setup = setup_looking_at({0, 0, -1}, 1);
+  const auto rendered = [&](double modulation_hz) {
+    setup["sensors"][0]["modulation_hz"] = {modulation_hz};
+    return run_pmdsim(
+        {"render", work.write("setup.json", setup.dump()), "-o", work / "out", "--format", "npy"});
+  };
+  const Run near = rendered(60e6); // 2.5 m
+  CHECK(near.errors.empty());
+  const Run far = rendered(100e6); // 1.5 m
+  CHECK(lines_of(far) == 1);
+  CHECK(far.errors.starts_with("pmdsim: warning: sensor pmd, frame 0: what is visible lies 2"));
+  CHECK(far.errors.find("100 % of it beyond the ambiguity range of 1.49896 m: distances wrap; a lower") !=
+        std::string::npos);
+  CHECK(rendered(400e6).errors.find("centimetres") == std::string::npos); // often wrapped, but near
+  CHECK(
+      run_pmdsim({"deform", work / "setup.json", "-o", work / "deformed", "--format", "npy"}).errors.empty());
+  work.write("wall.gltf", with(wall_gltf(), "\"mesh\": 0", "\"mesh\": 0, \"scale\": [100, 100, 100]"));
+  const Run unit = rendered(20e6);
+  CHECK(unit.errors.find("are the scene's lengths centimetres or millimetres?") != std::string::npos);
+  CHECK(unit.errors.ends_with("[beyond-ambiguity]\n"));
 }
 
 TEST_CASE("A dark frame is told of") {

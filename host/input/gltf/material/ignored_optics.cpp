@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace pmdsim {
 
@@ -148,6 +149,15 @@ const std::vector<IgnoredOptics> &ignored_optics() {
        "them, or state extras.pmdsim_reflectivity"},
   };
   return all;
+}
+
+json as_meant(json material, std::string_view generator) {
+  constexpr std::string_view blender = "Blender I/O"; // "Khronos glTF Blender I/O v4.2.57"
+  const json::json_pointer base("/pbrMetallicRoughness"), metallic = base / "metallicFactor";
+  if (generator.find(blender) != generator.npos && material.contains(base) && material.at(base).is_object() &&
+      !material.contains(metallic))
+    material[metallic] = 1.0;
+  return material;
 }
 
 } // namespace pmdsim

@@ -3,6 +3,7 @@
 // going by what real files say.
 
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <vector>
 
 namespace pmdsim {
@@ -17,5 +18,9 @@ struct IgnoredOptics {
 // A feature counts where it changes what a material looks like, not where its key stands with a value that
 // leaves all as it is; docs/warnings.md, "What a glTF file asks for in vain", has the rules.
 const std::vector<IgnoredOptics> &ignored_optics();
+
+// The material with what its writer left out and meant, by the file's asset.generator: Blender's exporter
+// leaves out a metallicFactor of 1, which other writers leave out where they mean no metal.
+nlohmann::json as_meant(nlohmann::json material, std::string_view generator);
 
 } // namespace pmdsim

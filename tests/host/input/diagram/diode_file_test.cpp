@@ -43,8 +43,9 @@ TEST_CASE("A law may be named by its key and its number") {
   CHECK(diodes[0].pattern.order == 2.5);
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,order -1\n"),
              EndsWith(":2: pattern: expected a number from 0 to 1000000, found \"-1\""));
-  for (const char *file : {"order", "isotropic 1", "file"})
-    CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1," + file + "\n"), EndsWith("no such file"));
+  for (const std::string file : {"order", "isotropic 1", "file"})
+    CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1," + file + "\n"),
+               Contains("found \"" + file + "\": no such file"));
 }
 
 TEST_CASE("Columns come in any order, lines end in any way") {
@@ -59,6 +60,12 @@ TEST_CASE("What is wrong in a diode file is named with its line") {
   CHECK_THAT(diodes_error("x_m,y_m,axis_x,axis_y,axis_z,intensity_w_sr,pattern\n"),
              EndsWith("diodes.csv:1: missing column z_m"));
   CHECK_THAT(diodes_error("colour," + header), Contains("diodes.csv:1: unknown column \"colour\""));
+  CHECK_THAT(
+      diodes_error("No,x_mm,y_m,z_m,nx,dir_y,axis_z,intensity,pattern\n"),
+      EndsWith("diodes.csv:1: unknown columns \"No\"; \"x_mm\", expected \"x_m\", in metres; \"nx\", did you "
+               "mean \"axis_x\"?; \"dir_y\", did you mean \"axis_y\"?; \"intensity\", did you mean "
+               "\"intensity_w_sr\", in watts per steradian?; the columns are "
+               "x_m,y_m,z_m,axis_x,axis_y,axis_z,intensity_w_sr,pattern and perhaps roll_deg"));
   CHECK_THAT(diodes_error("x_m," + header), EndsWith("diodes.csv:1: column x_m appears twice"));
   CHECK_THAT(diodes_error(""), EndsWith("diodes.csv:1: expected a header line"));
   CHECK_THAT(diodes_error(header), EndsWith("diodes.csv:2: expected at least one diode"));
@@ -80,8 +87,14 @@ TEST_CASE("What is wrong in a diode file is named with its line") {
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,1e\n"),
              EndsWith(":2: pattern: expected a number, found \"1e\""));
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,\n"),
-             EndsWith(":2: pattern: expected an order, isotropic or a diagram's file name"));
-  CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,inf\n"), EndsWith("inf\": no such file"));
+             EndsWith(":2: pattern: expected an order such as 1, isotropic, or a diagram's file name"));
+  CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,inf\n"),
+             EndsWith(":2: pattern: expected an order such as 1, isotropic, or a diagram's file name, found "
+                      "\"inf\": no such file"));
+  CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,Lambertian\n"),
+             EndsWith("found \"Lambertian\": no such file; Lambert's law is the order 1"));
+  CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,isotrop\n"),
+             EndsWith("found \"isotrop\": no such file, did you mean \"isotropic\"?"));
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1\n"), EndsWith(":2: expected 8 columns, found 7"));
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,1,1\n"), Contains(":2: expected 8 columns, found 9"));
   CHECK_THAT(diodes_error(header + "\n"), EndsWith(":3: expected at least one diode"));
@@ -93,7 +106,9 @@ TEST_CASE("Blank lines are skipped and counted") {
   CHECK(read_diodes(header + good + "  ").size() == 1);
   CHECK_THAT(diodes_error(header + "\n\r\n" + good + "\nzero,0,0,0,0,1,1,2\n"),
              EndsWith("diodes.csv:6:1: x_m: expected a number, found \"zero\""));
-  CHECK_THAT(diodes_error("\n\nx_m\n"), EndsWith("diodes.csv:3: missing column y_m"));
+  CHECK_THAT(
+      diodes_error("\n\nx_m\n"),
+      EndsWith("diodes.csv:3: missing columns y_m, z_m, axis_x, axis_y, axis_z, intensity_w_sr, pattern"));
 }
 
 TEST_CASE("A number may have a plus sign") {

@@ -74,6 +74,9 @@ TEST_CASE("Accessors beyond their buffers") {
   missing["accessors"][1].erase("bufferView");
   CHECK_THAT(SceneFile().error_of(missing),
              EndsWith("/accessors/1: missing key \"bufferView\", which indices need"));
+  missing["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+  CHECK_THAT(SceneFile().error_of(missing),
+             Contains("; the file is packed with Draco: export without compression"));
 }
 
 TEST_CASE("Vertices and positions that are none") {

@@ -43,6 +43,18 @@ TEST_CASE("Where no metallic factor is written, roughness tells") {
   CHECK(gloss_of_base(R"({"metallicFactor": 0, "roughnessFactor": 0.3})").empty());
 }
 
+TEST_CASE("Blender leaves out the metallic factor of a metal") {
+  const json rough = {{"pbrMetallicRoughness", {{"roughnessFactor", 0.8}}}};
+  const std::string_view blender = "Khronos glTF Blender I/O v4.2.57";
+  CHECK(gloss_of(pmdsim::as_meant(rough, blender)) == Words{"metallic"});
+  CHECK(gloss_of(pmdsim::as_meant(rough, "another exporter")).empty());
+  json plain = rough;
+  plain["pbrMetallicRoughness"]["metallicFactor"] = 0;
+  CHECK(gloss_of(pmdsim::as_meant(plain, blender)).empty());
+  CHECK(gloss_of(pmdsim::as_meant({{"name", "no base"}}, blender)).empty());
+  CHECK(gloss_of(pmdsim::as_meant({{"pbrMetallicRoughness", 7}}, blender)).empty());
+}
+
 TEST_CASE("A material transmits by extensions whose factor is above zero") {
   const Words transmitting{"transmission"};
   CHECK(gloss_of_extension("KHR_materials_transmission", R"({"transmissionFactor": 0.9})") == transmitting);

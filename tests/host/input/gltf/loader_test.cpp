@@ -120,6 +120,21 @@ TEST_CASE("Objects are the nodes that carry a mesh") {
   CHECK(loaded.nodes[1].name == "empty");
 }
 
+TEST_CASE("Objects and triangles count from the scene's root nodes on, level by level") {
+  json gltf = one_triangle();
+  gltf["nodes"] = {{{"name", "child"}, {"mesh", 0}},
+                   {{"name", "group"}, {"children", {0, 3}}},
+                   {{"name", "root"}, {"mesh", 0}},
+                   {{"name", "parent"}, {"mesh", 0}, {"children", {4}}},
+                   {{"name", "grandchild"}, {"mesh", 0}}};
+  gltf["scenes"][0]["nodes"] = {1, 2};
+  const Scene scene = load_bytes(gltf.dump()).scene;
+  CHECK(scene.objects == std::vector<std::string>{"root", "child", "parent", "grandchild"});
+  REQUIRE(scene.triangles.size() == 4);
+  for (std::uint32_t i = 0; i < 4; ++i)
+    CHECK(scene.triangles[i].object == i);
+}
+
 TEST_CASE("An empty scene loads") {
   CHECK(scene_of({{"asset", {{"version", "2.0"}}}}).triangles.empty());
   CHECK(scene_of({{"asset", {{"version", "2.0"}}}, {"scenes", {json::object()}}}).triangles.empty());

@@ -33,6 +33,22 @@ std::string error_of_file(const std::filesystem::path &file) {
 
 } // namespace
 
+TEST_CASE("A sensor's node that is not there is answered with cameras, an illuminator's is not") {
+  SetupFixture fixture;
+  fixture.sensor()["pose"] = {{"node", "Camera"}};
+  CHECK_THAT(fixture.error(),
+             Contains("which has no camera that a pose can name: export it with its cameras") &&
+                 EndsWith("; its nodes are \"object\""));
+  fixture.scene["nodes"].push_back({{"name", "View"}, {"camera", 0}});
+  fixture.scene["scenes"][0]["nodes"].push_back(1);
+  CHECK_THAT(fixture.error(), EndsWith("; expected \"object\" or \"View\""));
+  fixture.setup["sensors"][0].erase("pose");
+  fixture.scene["nodes"].erase(1);
+  fixture.scene["scenes"][0]["nodes"].erase(1);
+  fixture.illuminator()["pose"] = {{"node", "Lamp"}};
+  CHECK_THAT(fixture.error(), EndsWith("; expected \"object\""));
+}
+
 TEST_CASE("Setups that are no files") {
   const TemporaryFolder folder;
   CHECK_THAT(error_of_file(folder.path() / "absent.json"), EndsWith("absent.json: no such file"));
@@ -183,9 +199,12 @@ TEST_CASE("Files that a setup names") {
   SetupFixture fixture;
   fixture.illuminator()["diodes"] = {{"file", "diodes.csv"}};
   fixture.illuminator()["pattern"] = {{"isotropic", true}};
-  CHECK_THAT(fixture.error(),
-             EndsWith("/illuminators/0/pattern: expected none beside a diode file, which has its own"));
+  CHECK_THAT(
+      fixture.error(),
+      EndsWith(
+          "/illuminators/0/pattern: expected none beside a diode file, which has its own; remove it (or by "
+          "--set illuminators/0/pattern=null)"));
   fixture.illuminator().erase("pattern");
   fixture.folder.write("diodes.csv", "x_m\n1\n");
-  CHECK_THAT(fixture.error(), EndsWith("diodes.csv:1: missing column y_m"));
+  CHECK_THAT(fixture.error(), Contains("diodes.csv:1: missing columns y_m, z_m"));
 }

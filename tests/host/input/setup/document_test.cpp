@@ -66,6 +66,26 @@ TEST_CASE("A changed setup is loaded with presets and defaults, and scenes are r
   CHECK_THROWS_AS(SetupLoader().load(document), Error);
 }
 
+TEST_CASE("A change to null takes a key out, and its default holds") {
+  test::SetupFixture fixture;
+  fixture.sensor()["samples"] = 3;
+  SetupDocument document{"setup.json", fixture.setup};
+  change(document, {{"sensors/0/samples", nullptr}, {"sensors/0/taps", nullptr}, {"frames/count", nullptr}});
+  fixture.sensor().erase("samples");
+  CHECK(document.json == fixture.setup);
+  change(document,
+         {{"illuminators/ring/diodes", {{"file", "d.csv"}}}, {"illuminators/ring/pattern", nullptr}});
+  CHECK(document.json["illuminators"][0].size() == 2);
+  const auto told = [&](const std::string &path) {
+    return test::input_error_of([&] { change(document, {{path, nullptr}}, "--set"); });
+  };
+  CHECK(told("sensors/0/focal_lengt_m")
+            .find("--set cannot set \"sensors/0/focal_lengt_m\": there is no key "
+                  "\"focal_lengt_m\" to remove, did you mean \"focal_length_m\"?") != std::string::npos);
+  CHECK(told("sensors/1/taps").find("expected the index or the name") != std::string::npos);
+  CHECK(told("sensors/0/name/first").find("expected an object or an array here") != std::string::npos);
+}
+
 TEST_CASE("A scene that is given takes the place of a file") {
   test::SetupFixture fixture;
   auto scene = std::make_shared<Scene>();

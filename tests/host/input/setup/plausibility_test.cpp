@@ -61,6 +61,26 @@ TEST_CASE("A focal length in millimetres, or a pitch, is told") {
   CHECK(fixture.load().warnings.empty());
 }
 
+TEST_CASE("Diodes in millimetres are told, of a ring and of a table") {
+  SetupFixture fixture;
+  fixture.illuminator()["diodes"]["rings"][0]["radius_m"] = 25;
+  Setup setup = fixture.load();
+  REQUIRE(codes_of(setup) == Codes{"unusual-value"});
+  CHECK_THAT(setup.warnings[0].place, Catch::EndsWith("setup.json: /illuminators/0/diodes"));
+  CHECK(setup.warnings[0].text ==
+        "8 of 8 diodes lie far away, up to 25 m from the illuminator's origin: are these "
+        "millimetres? 25 mm are written 0.025");
+  fixture.illuminator()["diodes"]["rings"][0]["radius_m"] = 2; // a board as large as a door
+  CHECK(fixture.load().warnings.empty());
+  fixture.illuminator()["diodes"] = {{"file", "board.csv"}};
+  const std::string header = "x_m,y_m,z_m,axis_x,axis_y,axis_z,intensity_w_sr,pattern\n";
+  fixture.folder.write("board.csv", header + "0,0,0,0,0,1,1,1\n3,4,0,0,0,1,1,1\n");
+  setup = fixture.load();
+  REQUIRE(codes_of(setup) == Codes{"unusual-value"});
+  CHECK_THAT(setup.warnings[0].place, Catch::EndsWith("board.csv"));
+  CHECK_THAT(setup.warnings[0].text, Catch::StartsWith("1 of 2 diodes lie far away, up to 5 m"));
+}
+
 TEST_CASE("A scene in millimetres is told, and a large one in metres is not") {
   SetupFixture fixture;
   fixture.scene["nodes"][0]["scale"] = {2000, 2000, 2000};
@@ -71,6 +91,34 @@ TEST_CASE("A scene in millimetres is told, and a large one in metres is not") {
   CHECK(fixture.load().warnings.empty());
   fixture.scene["nodes"][0]["scale"] = {2000, 2000, 2}; // a wall, however large
   CHECK(fixture.load().warnings.empty());
+}
+
+TEST_CASE("A parent of scale 0.001 puts a scene in millimetres right, as its warning says") {
+  SetupFixture fixture;
+  json &nodes = fixture.scene["nodes"];
+  nodes[0]["translation"] = {0, 0, -1500};
+  nodes[0]["scale"] = {2000, 2000, 2000};
+  const Setup setup = fixture.load();
+  REQUIRE(codes_of(setup) == Codes{"scene-in-millimetres"});
+  CHECK_THAT(setup.warnings[0].text, Catch::Contains("put all root nodes below one node of scale 0.001"));
+  const json roots = fixture.scene["scenes"][0]["nodes"];
+  fixture.scene["scenes"][0]["nodes"] = {nodes.size()};
+  nodes.push_back({{"scale", {0.001, 0.001, 0.001}}, {"children", roots}});
+  const Setup mended = fixture.load();
+  CHECK(mended.warnings.empty());
+  for (std::size_t i = 0; i < mended.start.scene.positions_m.size(); ++i)
+    CHECK(glm::distance(mended.start.scene.positions_m[i], 1e-3 * setup.start.scene.positions_m[i]) < 1e-9);
+}
+
+TEST_CASE("A rough metal is told where Blender wrote the file") {
+  SetupFixture fixture;
+  fixture.scene["materials"] = {{{"name", "steel"}, {"pbrMetallicRoughness", {{"roughnessFactor", 0.8}}}}};
+  fixture.scene["meshes"][0]["primitives"][0]["material"] = 0;
+  CHECK(fixture.load().warnings.empty());
+  fixture.scene["asset"]["generator"] = 7; // which no file should have
+  CHECK(fixture.load().warnings.empty());
+  fixture.scene["asset"]["generator"] = "Khronos glTF Blender I/O v4.2.57";
+  CHECK(codes_of(fixture.load()) == Codes{"gltf-metallic"});
 }
 
 TEST_CASE("Diodes that are all turned away are told") {
