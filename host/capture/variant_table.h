@@ -12,7 +12,8 @@
 namespace pmdsim {
 
 // What a frame's record tells of it for the table: of each frequency the least, the median and the greatest
-// distance and amplitude, the same of the true range, and the mean coverage; null of channels that are not there.
+// distance and amplitude, the same of the true range, and the mean coverage; null of channels that are not
+// there.
 nlohmann::ordered_json frame_summary(const Measurement &frame);
 
 class VariantTable {
