@@ -18,21 +18,22 @@ constexpr std::size_t dead_on_board = fault_count, first_product = dead_on_board
                       change_count = first_product + product_count;
 
 // A change's sums over the image.
-struct Sums : Moments {
+struct Sums {
+  Moments moments{};
   double least = std::numeric_limits<double>::infinity(), most = -least;
 
   void add(double value, double weight) {
-    Moments::add(value, weight);
+    moments.add(value, weight);
     if (std::isnan(value))
       return;
     least = std::min(least, value);
     most = std::max(most, value);
   }
   ImageChange change() const {
-    if (count == 0.0)
+    if (moments.count == 0.0)
       return {no_change, no_change, no_change, no_change};
-    return {std::sqrt(mean_square()), std::max(std::abs(least), std::abs(most)), std::sqrt(variance()),
-            std::max(most - mean(), mean() - least)};
+    return {std::sqrt(moments.mean_square()), std::max(std::abs(least), std::abs(most)),
+            std::sqrt(moments.variance()), std::max(most - moments.mean(), moments.mean() - least)};
   }
 };
 
@@ -204,16 +205,17 @@ private:
     effect.left_dark = left_dark_[m];
     double own_squares = 0.0, own_varying = 0.0;
     for (std::size_t i = 0; i < change_count; ++i) {
-      if (i == static_cast<std::size_t>(Fault::dead) || sums[i].count == 0.0)
+      const Moments &of = sums[i].moments;
+      if (i == static_cast<std::size_t>(Fault::dead) || of.count == 0.0)
         continue;
       if (i < first_product) { // products are of two kinds
         const auto kind =
             static_cast<std::size_t>(i == dead_on_board ? Kind::dead : kind_of(static_cast<Fault>(i)));
-        squares[kind] += by.variance(i, sums[i].mean_square());
-        varying[kind] += by.variance(i, sums[i].variance());
+        squares[kind] += by.variance(i, of.mean_square());
+        varying[kind] += by.variance(i, of.variance());
       }
-      own_squares += by.variance_among_all(i, sums[i].mean_square());
-      own_varying += by.variance_among_all(i, sums[i].variance());
+      own_squares += by.variance_among_all(i, of.mean_square());
+      own_varying += by.variance_among_all(i, of.variance());
     }
     squares[kind_count] += own_squares;
     varying[kind_count] += own_varying;
@@ -239,7 +241,7 @@ double deviation_m(const PointChanges &changes, const Theory &by, const Image *i
     for (std::size_t i = 0; i < change_count; ++i) {
       if (i == static_cast<std::size_t>(Fault::dead) || std::isnan(changes.of_diode[m][i]))
         continue;
-      const double offset_m = image ? image->of(m, i).mean() : 0.0,
+      const double offset_m = image ? image->of(m, i).moments.mean() : 0.0,
                    change = changes.of_diode[m][i] - offset_m;
       variance += by.variance_among_all(i, change * change);
     }

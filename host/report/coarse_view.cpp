@@ -30,9 +30,8 @@ CoarseView coarse_view(const Setup &setup, const Sensor &fine) {
     if (std::isnan(ranges_m[pixel]))
       continue;
     view.ranges_m.push_back(ranges_m[pixel]);
-    const glm::dvec2 place(static_cast<double>(pixel % sensor.resolution.x) + 0.5,
-                           static_cast<double>(pixel / sensor.resolution.x) + 0.5);
-    if (const auto ray = lens.ray(lens.on_chip_m(place)))
+    const glm::uvec2 place(pixel % sensor.resolution.x, pixel / sensor.resolution.x);
+    if (const auto ray = lens.ray(lens.on_chip_m(glm::dvec2(place) + 0.5)))
       view.points_m.push_back(sensor.world_from_camera.point(ranges_m[pixel] * *ray));
   }
   return view;
