@@ -39,6 +39,7 @@ struct Return {
   std::vector<std::vector<float>> tap_a_dn{}, tap_b_dn{}; // digital numbers
   // Bit k: tap A of image k was full, or beyond the ADC's range, in some exposure; bit 16 + k: tap B.
   std::vector<std::uint32_t> saturated{};
+  double share_saturated = 0.0; // of the pixels: where that is not 0; stays where the channel is left out
   // The predicted standard deviation of distance_m; NaN where nothing returns or a tap's mean is full.
   std::vector<float> distance_noise_m{};
   std::vector<float> confidence{}; // amplitude over the predicted standard deviation of either part of z

@@ -49,6 +49,7 @@ inline constexpr std::array warning_kinds{
     WarningKind{"gltf-dispersion", "Materials of the scene disperse light, which is ignored."},
     WarningKind{"gltf-emission", "Materials of the scene emit light, which is ignored."},
     WarningKind{"gltf-extension", "The scene uses a glTF extension that is not supported."},
+    WarningKind{"gltf-extras", "The scene has extras of pmdsim that mean nothing where they are."},
     WarningKind{"gltf-glossy", "Materials of the scene are glossy and taken for matt."},
     WarningKind{"gltf-instancing",
                 "Nodes of the scene are drawn many times by an extension and are there once."},

@@ -16,6 +16,12 @@
 namespace pmdsim {
 namespace {
 
+double share_saturated(const std::vector<std::uint32_t> &taps_of_pixels) {
+  const auto full = std::ranges::count_if(taps_of_pixels, [](std::uint32_t taps) { return taps != 0; });
+  return taps_of_pixels.empty() ? 0.0
+                                : static_cast<double>(full) / static_cast<double>(taps_of_pixels.size());
+}
+
 std::size_t exposures_of_frame(const Setup &setup, const Sensor &sensor) {
   return exposes_tap_by_tap(setup, sensor) ? sensor.modulation_hz.size() * sensor.taps : 1;
 }
@@ -263,6 +269,8 @@ TakenFrame Exposures::take_whole(std::size_t sensor, std::uint32_t number, Light
     for (Return &of : frame.measurement.returns)
       for (auto *taps : {&of.taps, &of.tap_a_e, &of.tap_b_e, &of.tap_a_dn, &of.tap_b_dn})
         taps->clear();
+  for (Return &of : frame.measurement.returns)
+    of.share_saturated = frame.measurement.has_electrons ? share_saturated(of.saturated) : 0.0;
   leave_unwanted(frame.measurement);
   return frame;
 }

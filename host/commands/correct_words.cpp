@@ -4,6 +4,7 @@
 #include "host/report/report.h"
 
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -60,6 +61,12 @@ std::string pixels_text(const Outcome &of) {
   return text + '\n';
 }
 
+// What a pixel's measure is taken for.
+std::string samples_text(const Sensor &sensor) {
+  return sensor.samples < 2 ? "of which each measures its centre"
+                            : fmt::format("each the mean of {0} x {0} samples", sensor.samples);
+}
+
 std::string turns_text(const Outcome &of) {
   const double least_m = of.options.image.least_range_m.value_or(0.0);
   std::string text = of.measured.turns.empty() ? fmt::format("turns      ranges from {:g} m to {:.4g} m",
@@ -81,6 +88,11 @@ std::string truth_text(const Outcome &of) {
         "{} pixels are off by about whole ambiguity ranges of {:.4g} m: --least-range, --guess or "
         "--unwrap tells their turn\n",
         of.wrong_turns, ambiguity_m(of));
+  constexpr double rounding_m = 2e-6; // of distances as floats
+  if (const double noise_m = of.corrected.noise_m; noise_m > rounding_m)
+    text += fmt::format("{} of noise in each range pass through; means over the image are known to ±{}\n",
+                        micrometres_text(noise_m),
+                        micrometres_text(noise_m / std::sqrt(static_cast<double>(compared))));
   return text;
 }
 
@@ -121,11 +133,11 @@ ordered_json json_of(const Outcome &of) {
 
 std::string text_of(const Outcome &of) {
   const Sensor &sensor = of.scenery.camera();
-  std::string text =
-      fmt::format("image      {}\n           {}\nsensor     {}, {} x {} pixels, {}, {} diodes\n",
-                  of.measured.source, values_text(of.measured), sensor.name, sensor.resolution.x,
-                  sensor.resolution.y, frequency_text(sensor.modulation_hz[of.options.image.frequency]),
-                  diode_count(of.scenery.instant.illuminators));
+  std::string text = fmt::format(
+      "image      {}\n           {}\nsensor     {}, {} x {} pixels, {}, {}, {} diodes\n", of.measured.source,
+      values_text(of.measured), sensor.name, sensor.resolution.x, sensor.resolution.y, samples_text(sensor),
+      frequency_text(sensor.modulation_hz[of.options.image.frequency]),
+      diode_count(of.scenery.instant.illuminators));
   text += turns_text(of);
   text += pixels_text(of);
   const Spread correction = correction_mm(of);

@@ -118,8 +118,9 @@ public:
       } catch (const Error &error) {
         if (i == 0)
           throw;
-        throw Error(error.code(), fmt::format("{}; {} of {} variants are whole and stay, --resume goes on",
-                                              error.what(), i, study_.own.size()));
+        const bool goes_on = error.code() == ExitCode::interrupted;
+        throw Error(error.code(), fmt::format("{}; {} of {} variants are whole and stay{}", error.what(), i,
+                                              study_.own.size(), goes_on ? ", --resume goes on" : ""));
       }
     }
     tell();

@@ -40,10 +40,11 @@ void add_view(const Setup &setup, const Sensor &sensor, const Measurement &frame
     warnings.push_back(nothing_in_view(setup, sensor, place_of(sensor)));
   else if (sees && has_light(frame) == false && !has_warned_of(setup, "diodes-turned-away") &&
            !has_warned_of(setup, "unseen-harmonics"))
-    warnings.push_back(
-        {warning_code("all-dark"), place_of(sensor),
-         "it sees the scene, but no diode's light reaches what it sees: turn or move the "
-         "illuminators by their poses, or look for what stands before them (the channel lit)"});
+    warnings.push_back({warning_code("all-dark"), place_of(sensor),
+                        "it sees the scene, but no diode's light reaches what it sees: turn or move the "
+                        "illuminators by their poses, or look for what stands before them (the channel lit); "
+                        "surfaces of one side "
+                        "are seen and lit from where their corners go round counter-clockwise"});
 }
 
 // Where most of what is seen wraps, in all frequencies together.
@@ -64,18 +65,11 @@ void add_beyond(const Setup &setup, const Sensor &sensor, const Measurement &fra
   warnings.push_back(beyond_ambiguity(setup, {seen_m.min, seen_m.max, share, reach_m}, place_of(sensor)));
 }
 
-double share_saturated(const Measurement &frame) {
-  std::size_t most = 0, pixels = 1;
-  for (const Return &of : frame.returns) {
-    const auto full = std::ranges::count_if(of.saturated, [](std::uint32_t taps) { return taps != 0; });
-    most = std::max(most, static_cast<std::size_t>(full));
-    pixels = std::max(pixels, of.saturated.size());
-  }
-  return static_cast<double>(most) / static_cast<double>(pixels);
-}
-
 void add_saturated(const Sensor &sensor, const Measurement &frame, std::vector<Warning> &warnings) {
-  if (const double share = share_saturated(frame); share > largest_share_saturated)
+  double share = 0.0; // of the worst frequency
+  for (const Return &of : frame.returns)
+    share = std::max(share, of.share_saturated);
+  if (share > largest_share_saturated)
     warnings.push_back(
         {warning_code("saturated"), place_of(sensor),
          fmt::format("a tap was full in {:.3g} % of the pixels (the channel saturated), whose distances are "

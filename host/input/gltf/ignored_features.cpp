@@ -106,6 +106,7 @@ public:
 
   IgnoredFeatures found() {
     add_materials();
+    add_extras();
     add_nodes();
     add_vertex_colours();
     add_variants();
@@ -137,6 +138,26 @@ private:
             fmt::format("{}, which is ignored: {}",
                         counted(materials, found, materials_.size(), "material", optics.one, optics.many),
                         optics.instead));
+    }
+  }
+
+  // Keys of ours that are misspelt, or elsewhere than in a material.
+  void add_extras() {
+    constexpr std::string_view ours = "pmdsim";
+    constexpr std::array<std::string_view, 2> known{"pmdsim_reflectivity", "pmdsim_point_area_m2"};
+    for (const char *list : {"materials", "nodes", "meshes"}) {
+      const json &elements = list_at(document_, list);
+      for (std::size_t i = 0; i < elements.size(); ++i) {
+        const json extras = elements.at(i).is_object() ? elements.at(i).value("extras", json()) : json();
+        if (!extras.is_object())
+          continue;
+        for (const auto &[key, value] : extras.items())
+          if (key.starts_with(ours) &&
+              (std::string_view(list) != "materials" || std::ranges::find(known, key) == known.end()))
+            add(warning_code("gltf-extras"), root_ / list / i / "extras" / key,
+                fmt::format("it means nothing there; \"{}\" in the extras of a material are read",
+                            fmt::join(known, "\" and \"")));
+      }
     }
   }
 

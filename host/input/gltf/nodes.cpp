@@ -18,9 +18,12 @@ bool is_finite(const AffineTransform &transform) {
 
 glm::dquat unit_quaternion(const std::vector<double> &r, const Place &place) {
   const glm::dquat q(r[3], r[0], r[1], r[2]); // glTF writes x, y, z, w
+  constexpr double rounding = 0.01;           // of those that write few digits
   const double length = glm::length(q);
-  if (!(length > 1e-3) || !std::isfinite(length))
-    throw input_error(place / "rotation", "expected a unit quaternion");
+  if (!(std::abs(length - 1.0) < rounding))
+    throw input_error(
+        place / "rotation",
+        fmt::format("expected a unit quaternion x, y, z, w, found one of length {:.4g}", length));
   return q / length;
 }
 

@@ -59,7 +59,7 @@ std::string comments_of(const PointCloud &cloud, const FrameLabel &label) {
   std::string text = fmt::format(
       "comment pmdsim {}\n"
       "comment sensor {}, frame {}, {} s\n"
-      "comment x y z: world frame (glTF's, right-handed, +Y up), metres; at {} along each "
+      "comment x y z: world frame of the poses (glTF's: right-handed, +Y up), metres; at {} along each "
       "pixel's ray, {}\n"
       "comment world_from_camera, 3 rows of 4 (camera: x right, y down, z forward):{}\n",
       PMDSIM_VERSION, quoted(label.sensor.name), label.frame, label.time_s, cloud.distance().name(),

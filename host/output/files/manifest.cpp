@@ -40,7 +40,7 @@ ordered_json how_to_make_points() {
       "after cv::undistortPoints(xy, identity, [12 zeros, tilt_rad]); rays beyond 90 degrees have no slopes: "
       "solve the model for the angle to the axis",
       "3. point_world = world_from_camera * [distance_m * normalize([x, y, 1]), 1]; distance_m is radial, "
-      "not the depth z"};
+      "not the depth z; so is range_m, the true or, by `correct`, the corrected one"};
 }
 
 } // namespace

@@ -136,12 +136,16 @@ std::string difference_text(const RunIdentity &there, const RunIdentity &here) {
   const auto found = first_difference(there.head, here.head);
   if (!found || found->empty())
     return "its hash differs";
+  if (there.head.contains("study") != here.head.contains("study"))
+    return fmt::format("it has {} there", there.head.contains("study") ? "variants" : "no variants");
   std::string pointer = found->to_string();
   const std::string key = pointer.substr(1, pointer.find('/', 1) - 1);
   if (key == "inputs" && there.head.contains(key) && here.head.contains(key))
     return input_difference(there.head.at(key), here.head.at(key));
   const std::string values =
       fmt::format("{} there, {} here", short_text(there.head, *found), short_text(here.head, *found));
+  if (key == "study")
+    return "other variants after the first";
   if (const std::string place = pointer.substr(1 + key.size()); key == "setup" && !place.empty())
     return fmt::format("the setup differs at {}: {}", escaped(place), values);
   return fmt::format("its {} differs: {}", escaped(key), values);

@@ -85,10 +85,9 @@ TEST_CASE("Frames are told of where most of what they see wraps in all frequenci
 
 TEST_CASE("Saturated pixels are told where they are more than one in a hundred") {
   Measurement frame = lit_frame();
-  frame.returns[0].saturated.assign(200, 0);
-  frame.returns[0].saturated[3] = frame.returns[0].saturated[7] = 1;
+  frame.returns[0].share_saturated = 0.01;
   CHECK(warnings_of(frame).empty());
-  frame.returns[0].saturated[9] = 2;
+  frame.returns[0].share_saturated = 0.015;
   CHECK(codes_of(warnings_of(frame)) == Codes{"saturated"});
   CHECK_THAT(warnings_of(frame)[0].text, Catch::StartsWith("a tap was full in 1.5 % of the pixels"));
 }

@@ -177,6 +177,21 @@ TEST_CASE("check tells of electrons and warns of full taps before a frame is com
   CHECK(check()["sensors"][0]["electrons"].is_null());
 }
 
+TEST_CASE("full taps are told of whatever channels are written") {
+  const Workspace work;
+  json setup = with_preset("azure_kinect_like");
+  setup["sensors"][0]["electronics"]["integration_time_s"] = 1.0;
+  for (const char *channels : {"distance_m", "distance_m,range_m", "all"}) {
+    const Run done = run_pmdsim({"render", work.write("setup.json", setup.dump()), "-o", work / "out",
+                                 "--channels", channels, "--format", "npy"});
+    INFO(channels << ": " << done.errors);
+    CHECK(done.exit_code == 0);
+    CHECK(done.errors.find("[saturated]") != std::string::npos);
+    CHECK(json::parse(content_of(work / "out/manifest.json"))["warnings"].dump().find("saturated") !=
+          std::string::npos);
+  }
+}
+
 TEST_CASE("noise writes its tables and pictures, and needs electronics") {
   const Workspace work;
   json setup = with_preset("kinect_v2_like");

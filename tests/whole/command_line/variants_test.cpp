@@ -178,6 +178,9 @@ TEST_CASE("Another study is kept out of the folder, and an interrupted one tells
   CHECK(refused.errors.find("out: another run is being written there") != std::string::npos);
   CHECK(refused.errors.find("the setup differs at /illuminators/0/intensity_w_sr: 1 there, 101 here") !=
         std::string::npos);
+  const Run plain = small.render({small.setup, "-o", small.work / "out"});
+  CHECK(plain.exit_code == 7);
+  CHECK(plain.errors.find("it has variants there") != std::string::npos);
   running.send(SIGINT);
   const Run interrupted = running.wait();
   CHECK(interrupted.exit_code == 130);

@@ -95,7 +95,9 @@ TEST_CASE("Nodes that are no tree are refused") {
 
 TEST_CASE("Transforms that are none are refused") {
   CHECK_THAT(scene_error_of(with_nodes({{{"mesh", 0}, {"rotation", {0, 0, 0, 0}}}})),
-             EndsWith("/nodes/0/rotation: expected a unit quaternion"));
+             EndsWith("/nodes/0/rotation: expected a unit quaternion x, y, z, w, found one of length 0"));
+  CHECK_THAT(scene_error_of(with_nodes({{{"mesh", 0}, {"rotation", {0, 90, 0, 0}}}})), // degrees
+             EndsWith("/nodes/0/rotation: expected a unit quaternion x, y, z, w, found one of length 90"));
   CHECK_THAT(scene_error_of(
                  with_nodes({{{"mesh", 0}, {"matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}})),
              EndsWith("/nodes/0/matrix: expected 0, 0, 0, 1 as the last row"));

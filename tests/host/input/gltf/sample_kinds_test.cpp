@@ -269,6 +269,21 @@ TEST_CASE("Cameras and lights are told of where no pose is at their nodes") {
   CHECK_THAT(warnings[1].text, Catch::StartsWith("1 of 1 light is ignored"));
 }
 
+TEST_CASE("Extras of ours that mean nothing are told of") {
+  json gltf = square();
+  gltf["materials"][0]["extras"] = {
+      {"pmdsim_reflectivity", 0.2}, {"pmdsim_point_area_m2", 1e-6}, {"other_program", 1}};
+  gltf["meshes"][0]["extras"] = 7;
+  CHECK(file_of(gltf).warnings({}).empty());
+  gltf["materials"][0]["extras"] = {{"pmdsim_reflectivty", 0.2}};
+  gltf["nodes"][0]["extras"] = {{"pmdsim_reflectivity", 0.2}};
+  const std::vector<Warning> warnings = file_of(gltf).warnings({});
+  REQUIRE(warnings.size() == 2);
+  CHECK(warnings[0].code == "gltf-extras");
+  CHECK_THAT(warnings[0].place, Catch::EndsWith("scene.gltf: /materials/0/extras/pmdsim_reflectivty"));
+  CHECK_THAT(warnings[1].place, Catch::EndsWith("scene.gltf: /nodes/0/extras/pmdsim_reflectivity"));
+}
+
 TEST_CASE("Parts of odd types are not judged") {
   json gltf = square();
   gltf["materials"][0]["extensions"] = 7;
