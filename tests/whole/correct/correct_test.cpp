@@ -2,6 +2,7 @@
 
 #include "tests/program/refusal.h"
 #include "tests/whole/command_line/run_fixture.h"
+#include "tests/whole/correct/corrections.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,7 +15,7 @@ using nlohmann::json;
 namespace {
 
 // A rendered frame of the small wall.
-class Rendered {
+class Rendered : public Corrections {
 public:
   explicit Rendered(const std::string &formats = "exr,npy,npz,h5") {
     work.write("wall.gltf", wall_gltf());
@@ -24,22 +25,6 @@ public:
     INFO(run.errors);
     REQUIRE(run.exit_code == 0);
   }
-
-  Run correct(const std::string &image, const std::vector<std::string> &more = {}) const {
-    std::vector<std::string> arguments{"correct", setup, image, "-o", work / "corrected"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_pmdsim(arguments);
-  }
-  json corrected(const std::string &image, std::vector<std::string> more = {}) const {
-    more.emplace_back("--json");
-    const Run run = correct(image, more);
-    INFO(run.errors);
-    REQUIRE(run.exit_code == 0);
-    return json::parse(run.output);
-  }
-
-  Workspace work;
-  std::string setup;
 };
 
 constexpr double promised_um = 2.0;

@@ -2,6 +2,7 @@
 
 #include "tests/program/refusal.h"
 #include "tests/whole/command_line/run_fixture.h"
+#include "tests/whole/correct/corrections.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -57,7 +58,7 @@ std::string npy_mm(const std::function<std::uint16_t(int row, int column)> &valu
 }
 
 // A setup without a scene.
-class RealCamera {
+class RealCamera : public Corrections {
 public:
   explicit RealCamera(const std::function<void(json &setup)> &change = [](json &) {}) {
     json of_camera = json::parse(small_setup());
@@ -67,27 +68,12 @@ public:
     setup = work.write("setup.json", of_camera.dump());
   }
 
-  Run correct(const std::string &image, const std::vector<std::string> &more = {}) const {
-    std::vector<std::string> arguments{"correct", setup, image, "-o", work / "corrected"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_pmdsim(arguments);
-  }
   Run correct_text(const std::string &rows, const std::vector<std::string> &more = {}) const {
     return correct(work.write("image.csv", rows), more);
-  }
-  json corrected(const std::string &image, std::vector<std::string> more = {}) const {
-    more.emplace_back("--json");
-    const Run run = correct(image, more);
-    INFO(run.errors);
-    REQUIRE(run.exit_code == 0);
-    return json::parse(run.output);
   }
   json corrected_text(const std::string &rows, const std::vector<std::string> &more = {}) const {
     return corrected(work.write("image.csv", rows), more);
   }
-
-  Workspace work;
-  std::string setup;
 };
 
 std::vector<std::string> codes_of(const json &told) {
