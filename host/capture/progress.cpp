@@ -23,8 +23,8 @@ std::atomic<bool> tells{false}; // stderr is a terminal
 void remember(int) {
   constexpr std::string_view text = "\r\x1b[Kpmdsim: stopping at the next safe point\r\n";
   const int error_before = errno;
-  if (!interrupted.exchange(true) && tells && ::write(STDERR_FILENO, text.data(), text.size()) < 0)
-    errno = error_before; // nobody listens
+  if (!interrupted.exchange(true) && tells) [[maybe_unused]]
+    const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
   errno = error_before;
 }
 
