@@ -189,7 +189,11 @@ std::string Capture::device_text() const {
 TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<double> next_s,
                          const std::string &label) {
   bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
+  const bool was_lost = !exposures_.loss().empty();
   TakenFrame taken = exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
+  if (!was_lost && !exposures_.loss().empty())
+    tell(fmt::format("note: {}; it was set up anew, and frame {} was made again", exposures_.loss(),
+                     at.frame));
   taken.warnings = frame_warnings(setup_, taken.sensor, taken.measurement, accuracy_);
   if (sequence().run().command == "deform") // whose differences do not mind how often a distance wraps
     std::erase_if(taken.warnings, [](const Warning &warning) { return warning.code == "beyond-ambiguity"; });

@@ -9,9 +9,11 @@
 #include "host/output/files/output_set.h"
 #include "host/output/run/run_folder.h"
 
+#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,8 +63,9 @@ public:
   using Measure = std::function<MeasuredPart(const SensorFrame &)>;
   // Measures those frames that no other process makes, frame by frame, and sensor by sensor in each, one at a
   // time though not always on the same thread, and writes the parts on threads of its own; `part_bytes` is
-  // what the largest part holds. Then waits for the others'. Where any of that fails, Error (interrupted)
-  // among others, whole frames stay with a manifest that lists just these; without any, nothing stays.
+  // what the largest part holds. A frame gets its names once the disk has it, with those of the half second
+  // before. Then waits for the others'. Where any of that fails, Error (interrupted) among others, whole
+  // frames stay with a manifest that lists just these; without any, nothing stays.
   void write(const Measure &measure, std::size_t part_bytes);
 
   const RunHead &run() const { return run_; }
@@ -84,6 +87,13 @@ private:
     FrameRecord record;
     WrittenFiles files;
   };
+  // A frame whose files are written and have no names yet.
+  struct Finished {
+    explicit Finished(const std::filesystem::path &directory) : files(directory) {}
+
+    OutputSet files;
+    std::vector<FrameRecord> parts{};
+  };
   // Frames that this process has published.
   struct Made {
     std::uint32_t first = 0, last = 0, count = 0;
@@ -97,7 +107,10 @@ private:
   SensorFrame part(std::uint32_t frame, std::size_t sensor) const;
   std::optional<std::uint32_t> next_after(std::uint32_t frame) const;
   void add(WrittenPart part);
-  void publish();
+  void finish_frame();
+  void publish(Finished &frame);
+  void publish_finished();
+  void keep_finished() noexcept;
   Warning left_warning(const RunFolder::Left &left) const;
   std::string whole_text() const;
   std::size_t sensor_count() const { return setup_.start.sensors.size(); }
@@ -108,8 +121,10 @@ private:
   std::optional<RunFolder> folder_;         // once it has begun
   std::deque<std::uint32_t> to_do_, taken_; // by this process, as far as is known; by others
   std::uint32_t to_do_at_start_ = 0;
-  WrittenFiles files_;             // of the frame that is published next, and
-  std::vector<FrameRecord> parts_; // its sensors' records
+  WrittenFiles files_;                             // of the frame that is published next, and
+  std::vector<FrameRecord> parts_;                 // its sensors' records
+  std::deque<std::unique_ptr<Finished>> finished_; // that wait for the disk
+  std::chrono::steady_clock::time_point synced_{};
   Made made_;
   std::vector<std::string> sheets_;
 };

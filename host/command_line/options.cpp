@@ -237,7 +237,7 @@ std::string manual_of(const CommandTable &table, const std::vector<std::string> 
 
 std::optional<Options> parse_options(int argument_count, const char *const *arguments) {
   if (argument_count <= 1) {
-    fmt::print("{}", first_steps());
+    std::fputs(first_steps().c_str(), stdout);
     return std::nullopt;
   }
   CLI::App app(
@@ -263,7 +263,7 @@ std::optional<Options> parse_options(int argument_count, const char *const *argu
   if (!manual.empty()) {
     CommandTable table = table_of(app);
     add_suggestions(table);
-    fmt::print("{}", manual_of(table, manual));
+    std::fputs(manual_of(table, manual).c_str(), stdout);
     return std::nullopt;
   }
   return checked(written, app.get_subcommands().front()->get_name());

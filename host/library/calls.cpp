@@ -1,6 +1,7 @@
 #include "host/library/calls.h"
 
 #include "host/library/handles.h"
+#include "host/report/failure.h"
 
 #include <algorithm>
 #include <atomic>
@@ -72,10 +73,8 @@ pmdsim_status handled_exception() noexcept {
     return keep(refusal.status, refusal.message.c_str());
   } catch (const Error &error) {
     return keep(error);
-  } catch (const std::bad_alloc &) {
-    return keep(PMDSIM_OUT_OF_MEMORY, "out of memory");
   } catch (const std::exception &error) {
-    return keep(PMDSIM_INTERNAL, error.what());
+    return keep(static_cast<pmdsim_status>(exit_code_of(error)), message_of(error));
   } catch (...) {
     return keep(PMDSIM_INTERNAL, "an exception of an unknown kind");
   }

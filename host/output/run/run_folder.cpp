@@ -220,11 +220,14 @@ bool RunFolder::seems_free(std::uint32_t frame) const {
          ::access((path() / record_name(frame)).c_str(), F_OK) != 0;
 }
 
-void RunFolder::publish(OutputSet &files, const nlohmann::ordered_json &record) {
-  const auto frame = record.at("frame").get<std::uint32_t>();
-  const std::string name = record_name(frame);
-  files.add(name, [&](OutputFile &file) { file.write(json_text(record)); });
-  files.publish({name}); // a record of files that have gone must not speak for those that come
+void RunFolder::add_record(OutputSet &files, const nlohmann::ordered_json &record) {
+  files.add(record_name(record.at("frame").get<std::uint32_t>()),
+            [&](OutputFile &file) { file.write(json_text(record)); });
+}
+
+void RunFolder::publish(OutputSet &files, std::uint32_t frame) {
+  files.give_names(
+      {record_name(frame)}); // a record of files that have gone must not speak for those that come
   directory_.stay();
   give_back(frame);
 }

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-const std::string meshopt_extension = "EXT_meshopt_compression";
+constexpr const char *meshopt_extension = "EXT_meshopt_compression";
 
 // The extension's part of a bufferView or buffer.
 const json *meshopt_part(const json &object) { return extension_part(object, meshopt_extension); }
