@@ -1,6 +1,7 @@
 #include "engine/model/error.h"
 #include "host/commands/commands.h"
 #include "host/environment.h"
+#include "host/input/words/utf8.h"
 
 #include <fmt/format.h>
 #include <map>
@@ -17,7 +18,8 @@ const std::map<std::string, void (*)(const Options &)> commands{
     {"explain", run_explain}, {"correct", run_correct},   {"diodes", run_diodes}};
 
 int report(ExitCode code, const char *message) {
-  fmt::print(stderr, "pmdsim: error: {}\n", message);
+  fmt::print(stderr, "pmdsim: error: {}\n",
+             in_one_line(message)); // it may quote arguments and names of files
   return static_cast<int>(code);
 }
 
