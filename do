@@ -17,11 +17,12 @@ packages=(
   catch2 python3-numpy
 )
 
-# What long tests of packages, manual pages, clusters and pages need; all but the last are skipped where there are no such
-# packages.
+# What long tests of packages, manual pages, clusters, fuzzers and pages need; all but the last are skipped where there are
+# no such packages.
 packages_of_long_tests=(
   mmdebstrap groff-base man-db zsh fish
   slurm-wlm munge procps python3-distributed python3-dask
+  clang-19 libclang-rt-19-dev
   chromium chromium-driver python3-selenium
   python3-pil
 )
@@ -260,14 +261,22 @@ configure_fuzzers() {
   (cd "$root" && cmake --preset fuzz -DCMAKE_CXX_COMPILER="$(fuzzing_clang)") >&2
 }
 
-# Frames of lavapipe take more memory, and its compiler frees not all of it. Of damaged files HDF5 asks for memory of any
-# size, takes the answer that there is none, and frees not all that it has.
+# Frames of lavapipe take more memory. Of damaged files HDF5 asks for memory of any size and takes the answer that there is
+# none.
 options_of_fuzz_target() {
   case $1 in
-  setups) echo -rss_limit_mb=6144 -timeout=300 -detect_leaks=0 ;;
+  setups) echo -rss_limit_mb=6144 -timeout=300 ;;
   library) echo -rss_limit_mb=2048 -timeout=10 ;;
-  hdf5 | array) echo -rss_limit_mb=1024 -malloc_limit_mb=1000000 -timeout=5 -detect_leaks=0 ;;
+  hdf5 | array) echo -rss_limit_mb=1024 -malloc_limit_mb=1000000 -timeout=5 ;;
   *) echo -rss_limit_mb=1024 -timeout=5 ;;
+  esac
+}
+
+# Lavapipe's compiler and, of damaged files, HDF5 free not all that they have.
+sanitizer_options_of_fuzz_target() {
+  case $1 in
+  setups | hdf5 | array) echo quarantine_size_mb=16:allocator_may_return_null=1:detect_leaks=0 ;;
+  *) echo quarantine_size_mb=16:allocator_may_return_null=1 ;;
   esac
 }
 
@@ -288,7 +297,7 @@ fuzz_one() {
   [ ! -f "$dictionary" ] || arguments+=("-dict=$dictionary")
   read -r -a options <<<"$(options_of_fuzz_target "$1")"
   files=$(mktemp -d "$([ -d /dev/shm ] && echo /dev/shm || echo /tmp)/pmdsim-fuzz-XXXXXX")
-  TMPDIR=$files ASAN_OPTIONS=quarantine_size_mb=16:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1 \
+  TMPDIR=$files ASAN_OPTIONS=$(sanitizer_options_of_fuzz_target "$1") UBSAN_OPTIONS=print_stacktrace=1 \
     "$program" "${options[@]}" "${arguments[@]}" -max_total_time="$2" -print_final_stats=1 -close_fd_mask=1 \
     -artifact_prefix="$folder/found/$1-" "$folder/corpus/$1" "$root/tests/fuzz/corpus/$1" >/dev/null 2>"$log" || status=$?
   rm -rf "$files"
