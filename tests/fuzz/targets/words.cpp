@@ -20,8 +20,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   fuzz::check_line(did_you_mean(text, std::vector<std::string>{"sensors", "illuminators", "modulation_hz"}));
   fuzz::accepts([&] { number_of(text, "number", TextPlace{"table.csv", 1, 2}, {-1.0, 1e9}); });
   const std::size_t end = text.find('\n'); // two changes: before and behind a line break
-  fuzz::accepts([&] { changes_of({text.substr(0, end), end < size ? text.substr(end + 1) : "a=1"}); },
-                {ExitCode::usage, ExitCode::input});
+  fuzz::accepts(
+      [&] {
+        changes_of({text.substr(0, end), end < size ? text.substr(end + 1) : "a=1"});
+      },
+      {ExitCode::usage, ExitCode::input});
   fuzz::accepts([&] { poses_of(text); }, {ExitCode::usage});
   return 0;
 }
