@@ -292,7 +292,7 @@ fuzz_summary() {
 # Target $1 for $2 seconds, from the repository's inputs and those that earlier runs have found.
 fuzz_one() {
   local folder=$root/build/fuzz dictionary=$root/tests/fuzz/dictionaries/$1.dict status=0 arguments=()
-  local program=$folder/tests/fuzz/fuzz_$1 log=$folder/logs/$1.log files
+  local program=$folder/tests/fuzz/fuzz_$1 log=$folder/logs/$1.log files options
   mkdir -p "$folder/corpus/$1" "$folder/found" "$folder/logs"
   [ ! -f "$dictionary" ] || arguments+=("-dict=$dictionary")
   read -r -a options <<<"$(options_of_fuzz_target "$1")"
