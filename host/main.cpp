@@ -1,6 +1,7 @@
 #include "engine/model/error.h"
 #include "host/commands/commands.h"
 #include "host/environment.h"
+#include "host/input/words/utf8.h"
 #include "host/report/failure.h"
 #include "host/report/report.h"
 
@@ -9,6 +10,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <new>
+#include <string>
 #include <string_view>
 
 namespace pmdsim {
@@ -29,10 +32,17 @@ constexpr std::array commands{
     Command{"explain", run_explain},   Command{"correct", run_correct},
     Command{"diodes", run_diodes}};
 
-// Takes no memory, as there may be none, and does not mind that nobody listens.
+// Needs no memory, as there may be none, and does not mind that nobody listens.
 ExitCode report(ExitCode code, const char *message) noexcept {
   if (code == nobody_reads)
     return code;
+  std::string line;
+  try {
+    line = in_one_line(message); // it may quote arguments and names of files
+    message = line.c_str();
+  } catch (const std::bad_alloc &) {
+    line.clear(); // then as it is
+  }
   for (const char *text : {"pmdsim: error: ", message, "\n"})
     std::fputs(text, stderr);
   return code;

@@ -1,5 +1,6 @@
 #include "host/library/calls.h"
 
+#include "host/input/words/utf8.h"
 #include "host/library/handles.h"
 #include "host/report/failure.h"
 
@@ -23,7 +24,7 @@ thread_local std::string text_of_thread;
 
 pmdsim_status keep(pmdsim_status status, const char *message, const Whereabouts &where = {}) noexcept {
   try {
-    last_error = {message, where.file, where.place};
+    last_error = {in_one_line(message), in_one_line(where.file), in_one_line(where.place)};
   } catch (const std::bad_alloc &) { // the status says enough
     last_error = {};
   }

@@ -3,6 +3,7 @@
 #include "host/input/file/input_error.h"
 #include "host/input/file/json_position.h"
 #include "host/input/file/json_syntax.h"
+#include "host/input/words/utf8.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +92,7 @@ private:
     const std::string within = object.pointer.empty() ? "" : object.pointer.to_string() + ": ";
     const Error error = input_error(line_of(2), fmt::format("{}key {} appears twice, first in line {}",
                                                             within, in_quotes(name), line_of(1).line));
-    return {error.code(), error.what(), {file_.string(), object.pointer.to_string()}};
+    return {error.code(), error.what(), {error.where().file, in_one_line(object.pointer.to_string())}};
   }
 
   bool value() {
