@@ -1,6 +1,7 @@
 #include "engine/model/error.h"
 #include "host/commands/commands.h"
 #include "host/environment.h"
+#include "host/memory/memory_limit.h"
 
 #include <fmt/format.h>
 #include <map>
@@ -30,6 +31,7 @@ int main(int argument_count, char **arguments) {
     stop_on_signals();
     if (const auto options = parse_options(argument_count, arguments)) {
       settle_environment();
+      set_max_memory(options->max_memory);
       commands.at(options->command)(*options);
     }
     return static_cast<int>(ExitCode::done);

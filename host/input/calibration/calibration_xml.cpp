@@ -1,5 +1,6 @@
 #include "host/input/calibration/calibration_xml.h"
 
+#include "host/input/calibration/calibration_yaml.h"
 #include "host/input/file/input_error.h"
 
 #include <algorithm>
@@ -13,18 +14,36 @@ namespace {
 
 constexpr int deepest = 32;
 
-// Numbers that stand one after the other are a list, as in <data>.
-YAML::Node words_of(const std::string &text) {
-  YAML::Node list(YAML::NodeType::Sequence);
-  std::istringstream in(text);
-  for (std::string word; in >> word;)
-    list.push_back(word);
-  return list;
-}
+// Makes a tree of a document's elements, of no more values than one of YAML may have.
+class XmlTree {
+public:
+  explicit XmlTree(const std::filesystem::path &file) : file_(file) {}
 
-YAML::Node node_of(const pugi::xml_node &element, int depth, const std::filesystem::path &file) {
+  YAML::Node of(const pugi::xml_node &element, int depth);
+
+private:
+  void count() {
+    if (++values_ > max_yaml_values)
+      throw input_error(Place{file_}, fmt::format("expected at most {} values", max_yaml_values));
+  }
+
+  // Numbers that stand one after the other are a list, as in <data>.
+  YAML::Node words_of(const std::string &text) {
+    YAML::Node list(YAML::NodeType::Sequence);
+    std::istringstream in(text);
+    for (std::string word; in >> word; count())
+      list.push_back(word);
+    return list;
+  }
+
+  const std::filesystem::path &file_;
+  std::size_t values_ = 0;
+};
+
+YAML::Node XmlTree::of(const pugi::xml_node &element, int depth) {
+  count();
   if (depth > deepest)
-    throw input_error(Place{file}, fmt::format("expected elements nested at most {} deep", deepest));
+    throw input_error(Place{file_}, fmt::format("expected elements nested at most {} deep", deepest));
   const auto children = element.children();
   const bool has_elements = std::any_of(children.begin(), children.end(), [](const pugi::xml_node &child) {
     return child.type() == pugi::node_element;
@@ -39,9 +58,9 @@ YAML::Node node_of(const pugi::xml_node &element, int depth, const std::filesyst
     if (child.type() != pugi::node_element)
       continue;
     if (std::string_view(child.name()) == "_") // an element of a list
-      node.push_back(node_of(child, depth + 1, file));
+      node.push_back(of(child, depth + 1));
     else
-      node.force_insert(std::string(child.name()), node_of(child, depth + 1, file));
+      node.force_insert(std::string(child.name()), of(child, depth + 1));
   }
   return node;
 }
@@ -66,7 +85,7 @@ YAML::Node parse_opencv_xml(const std::string &text, const std::filesystem::path
   const pugi::xml_node storage = document.child("opencv_storage");
   if (!storage)
     throw input_error(Place{file}, "expected OpenCV's <opencv_storage> in XML");
-  return node_of(storage, 0, file);
+  return XmlTree(file).of(storage, 0);
 }
 
 } // namespace pmdsim
