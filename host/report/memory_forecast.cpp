@@ -28,7 +28,8 @@ constexpr std::uint64_t bytes_of_sample_ids = 8;      // of every sample, where 
 constexpr std::uint64_t instants_at_once = 2;         // beside the first
 constexpr std::uint64_t bytes_of_bounced_pixel = 100; // of each tone
 constexpr std::uint64_t bytes_of_reference_pixel = 400;
-constexpr std::uint64_t values_of_element = 4, most_seen = 600, bytes_of_seen = 30; // of each tone
+constexpr std::uint64_t bytes_of_element_pair = 14; // of each tone, of elements that may be cut finer
+constexpr std::uint64_t moving_bytes = 25'000'000;  // passes that are compiled for other instants
 
 std::uint64_t samples_of(const Sensor &sensor) {
   return std::uint64_t{sensor.pixel_count()} * sensor.samples * sensor.samples;
@@ -75,8 +76,7 @@ std::uint64_t geometry_bytes(const Scene &scene) {
 
 // What elements see of each other.
 std::uint64_t exchange_bytes(const FrameToForecast &frame) {
-  const std::uint64_t seen = std::min<std::uint64_t>(frame.elements, most_seen);
-  return frame.elements * values_of_element * seen * bytes_of_seen * sums_of(frame.sensor);
+  return frame.elements * frame.elements * bytes_of_element_pair * sums_of(frame.sensor);
 }
 
 std::uint64_t diodes_of(const std::vector<Illuminator> &illuminators) {
@@ -120,7 +120,8 @@ MemoryForecast forecast_memory(const FrameToForecast &frame) {
   add(forecast.parts, "files while they are written",
       frame.is_written ? frame.made_bytes + writing_bytes : 0);
   if (frame.moves)
-    add(forecast.parts, "the scene at two times", instants_at_once * geometry_bytes(frame.scene));
+    add(forecast.parts, "the scene at other times",
+        instants_at_once * geometry_bytes(frame.scene) + moving_bytes);
   if (frame.bounces.any()) {
     add(forecast.parts, "the IDs of all samples",
         frame.sensor.samples > 1 ? samples * bytes_of_sample_ids : 0);

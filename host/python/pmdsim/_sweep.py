@@ -169,20 +169,21 @@ def sweep(
     prepared = render_options(**options)
     variants = _variants(variations, combine)
     if count == 1:
-        return _in_turn(setup, device, scene, variants, sensor, chosen, prepared)
-    return _ahead(setup, device, scene, count, variants, sensor, chosen, prepared)
+        return _in_turn(setup, device, scene, allow_outside, variants, sensor, chosen, prepared)
+    return _ahead(setup, device, scene, allow_outside, count, variants, sensor, chosen, prepared)
 
 
 def _in_turn(
     setup: SetupLike,
     device: Optional[Device],
     scene: Optional[Scene],
+    allow_outside: bool,
     variants: Iterator[Variant],
     sensor: Union[int, str],
     frames: Sequence[int],
     options: Any,
 ) -> Iterator[Tuple[Variant, Frame]]:
-    with Simulator(setup, device, scene=scene) as simulator:
+    with Simulator(setup, device, scene=scene, allow_outside=allow_outside) as simulator:
         for variant in variants:
             simulator._set(variant, stacklevel=4)
             for frame in frames:
@@ -193,6 +194,7 @@ def _ahead(
     setup: SetupLike,
     device: Optional[Device],
     scene: Optional[Scene],
+    allow_outside: bool,
     count: int,
     variants: Iterator[Variant],
     sensor: Union[int, str],
