@@ -4,6 +4,7 @@
 #include "host/input/words/utf8.h"
 #include "host/report/failure.h"
 #include "host/report/report.h"
+#include "host/memory/memory_limit.h"
 
 #include <algorithm>
 #include <array>
@@ -80,6 +81,7 @@ int main(int argument_count, char **arguments) {
     stop_on_signals();
     if (const auto options = parse_options(argument_count, arguments)) {
       settle_environment();
+      set_max_memory(options->max_memory);
       std::ranges::find(commands, options->command, &Command::name)->run(*options);
     }
     print(""); // whose failure tells of what was printed without it, as help is

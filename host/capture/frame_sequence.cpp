@@ -36,9 +36,10 @@ std::string frames_text(std::uint32_t first, std::uint32_t last) {
 
 } // namespace
 
-std::size_t parts_waiting(std::size_t part_bytes) {
+std::size_t parts_waiting(std::size_t part_bytes, std::uint64_t room) {
   const auto busy = static_cast<std::size_t>(tbb::info::default_concurrency());
-  return std::min(busy, waiting_bytes / std::max(part_bytes, std::size_t{1}));
+  const std::size_t most_bytes = std::min<std::uint64_t>(waiting_bytes, room);
+  return std::min(busy, most_bytes / std::max(part_bytes, std::size_t{1}));
 }
 
 FrameSequence::FrameSequence(const Setup &setup, SequenceRequest request, const RunHead &run)
@@ -74,9 +75,9 @@ Warning FrameSequence::left_warning(const RunFolder::Left &left) const {
                   left.frames, left.frames == 1 ? "" : "s", why, left.frames == 1 ? "stays" : "stay")};
 }
 
-void FrameSequence::write(const Measure &measure, std::size_t part_bytes) {
+void FrameSequence::write(const Measure &measure, std::size_t part_bytes, std::uint64_t room) {
   try {
-    make_all(measure, part_bytes);
+    make_all(measure, parts_waiting(part_bytes, room));
     throw_if_interrupted();
     sheets_ = write_sheets(request_.directory, throw_if_interrupted);
     folder_->write_manifest();
@@ -97,9 +98,9 @@ void FrameSequence::write(const Measure &measure, std::size_t part_bytes) {
   }
 }
 
-void FrameSequence::make_all(const Measure &measure, std::size_t part_bytes) {
+void FrameSequence::make_all(const Measure &measure, std::size_t waiting) {
   while (!to_do_.empty()) {
-    const bool any = make_free_ones(measure, part_bytes);
+    const bool any = make_free_ones(measure, waiting);
     std::erase_if(taken_, [&](std::uint32_t frame) { return folder_->whole(frame).has_value(); });
     to_do_ = std::exchange(taken_, {});
     throw_if_interrupted();
@@ -110,7 +111,7 @@ void FrameSequence::make_all(const Measure &measure, std::size_t part_bytes) {
 
 // Whether there were any. A part, not a frame, goes through the pipeline: frames of several large sensors
 // would not fit side by side.
-bool FrameSequence::make_free_ones(const Measure &measure, std::size_t part_bytes) {
+bool FrameSequence::make_free_ones(const Measure &measure, std::size_t waiting) {
   struct Part {
     SensorFrame at;
     MeasuredPart measured;
@@ -124,7 +125,7 @@ bool FrameSequence::make_free_ones(const Measure &measure, std::size_t part_byte
         any = any || frame;
         return frame.has_value();
       },
-      parts_waiting(part_bytes),
+      waiting,
       [&](std::size_t i) {
         const SensorFrame at = part(*frame, i % sensor_count());
         return Part{at, measure(at)};

@@ -40,8 +40,9 @@ struct MeasuredPart {
 };
 
 // How many such parts may wait to be written while the next is measured, each of `part_bytes`: as many as
-// keep the processor busy, and no more than fit into 1 GiB; none where a single one does not fit.
-std::size_t parts_waiting(std::size_t part_bytes);
+// keep the processor busy, and no more than fit into 1 GiB and into the `room` that is left for them; none
+// where a single one does not fit.
+std::size_t parts_waiting(std::size_t part_bytes, std::uint64_t room = UINT64_MAX);
 
 // What is asked of a sequence.
 struct SequenceRequest {
@@ -63,10 +64,11 @@ public:
   using Measure = std::function<MeasuredPart(const SensorFrame &)>;
   // Measures those frames that no other process makes, frame by frame, and sensor by sensor in each, one at a
   // time though not always on the same thread, and writes the parts on threads of its own; `part_bytes` is
-  // what the largest part holds. A frame gets its names once the disk has it, with those of the half second
-  // before. Then waits for the others'. Where any of that fails, Error (interrupted) among others, whole
-  // frames stay with a manifest that lists just these; without any, nothing stays.
-  void write(const Measure &measure, std::size_t part_bytes);
+  // what the largest part holds, and those that wait to be written have `room`. A frame gets its names once the
+  // disk has it, with those of the half second before. Then waits for the others'. Where any of that fails,
+  // Error (interrupted) among others, whole frames stay with a manifest that lists just these; without any,
+  // nothing stays.
+  void write(const Measure &measure, std::size_t part_bytes, std::uint64_t room = UINT64_MAX);
 
   const RunHead &run() const { return run_; }
   // The record of each frame that was asked for, in order, whoever made it. Throws Error (output) where one
@@ -101,8 +103,8 @@ private:
     std::vector<std::string> names_of_first{};
   };
 
-  void make_all(const Measure &measure, std::size_t part_bytes);
-  bool make_free_ones(const Measure &measure, std::size_t part_bytes);
+  void make_all(const Measure &measure, std::size_t waiting);
+  bool make_free_ones(const Measure &measure, std::size_t waiting);
   std::optional<std::uint32_t> claim_next();
   SensorFrame part(std::uint32_t frame, std::size_t sensor) const;
   std::optional<std::uint32_t> next_after(std::uint32_t frame) const;

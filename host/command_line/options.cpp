@@ -140,6 +140,8 @@ void take_setups(const WrittenSetups &written, Options &options) {
   options.capture.changes = changes_of(written.changes);
   if (written.poses)
     options.capture.poses = poses_of(*written.poses);
+  if (written.allow_outside)
+    options.capture.scene_files = UriFiles::anywhere;
 }
 
 void take_reporting(const WrittenReporting &written, Options &options) {
@@ -161,6 +163,7 @@ Options checked(Written written, const std::string &command) {
   options.command = command;
   take_setups(written.setups, options);
   check_importing(options);
+  options.max_memory = max_memory_of(written.max_memory);
   options.correct = correct_options_of(written.correct);
   check_comparing(written);
   capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));

@@ -59,7 +59,7 @@ private:
   // A value takes some hundred times the memory of its text.
   void count() {
     if (++values_ > max_yaml_values)
-      throw input_error(place_, fmt::format("more than {} values", max_yaml_values));
+      throw input_error(place_, fmt::format("expected at most {} values", max_yaml_values));
   }
 
   Place place_;

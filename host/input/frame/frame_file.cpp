@@ -3,6 +3,7 @@
 #include "engine/correction/corrected_channels.h"
 #include "engine/model/channel_names.h"
 #include "host/input/file/input_file.h"
+#include "host/input/file/memory_request.h"
 #include "host/input/frame/frame_bytes.h"
 
 #include <algorithm>
@@ -33,6 +34,8 @@ glm::uvec2 checked_resolution(const FrameBytes &frame, std::uint64_t columns, st
   if (columns * rows > stored_bytes * most_of_a_byte / pixel_bytes)
     throw frame_error(frame, fmt::format("expected the values of {} x {} pixels, found {} bytes", columns,
                                          rows, stored_bytes));
+  require_memory(columns * rows * pixel_bytes, Place{frame.file},
+                 fmt::format("{} x {} pixels", columns, rows));
   return {columns, rows};
 }
 

@@ -235,10 +235,11 @@ std::string absent_camera_text(const std::string &name, const std::filesystem::p
                      in_quotes(name), file.string(), others);
 }
 
-GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at) {
-  const GltfDocument document = read_gltf_document(file, named_at);
+GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at, UriFiles files) {
+  GltfDocument document = read_gltf_document(file, named_at);
+  document.files = files;
   const auto model = std::make_shared<const tinygltf::Model>(model_of(document, file));
-  return {file, model, std::make_shared<GltfMaterials>(document.json, model, file), document.json};
+  return {file, model, std::make_shared<GltfMaterials>(document.json, model, file, files), document.json};
 }
 
 } // namespace pmdsim

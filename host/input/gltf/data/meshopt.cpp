@@ -1,5 +1,6 @@
 #include "host/input/gltf/data/meshopt.h"
 
+#include "host/input/file/memory_request.h"
 #include "host/input/gltf/extensions.h"
 
 #include <cstdint>
@@ -103,6 +104,7 @@ Bytes decode(const CompressedView &view, const Bytes &source) {
   static const std::map<std::string, Filter> filters{{"OCTAHEDRAL", meshopt_decodeFilterOct},
                                                      {"QUATERNION", meshopt_decodeFilterQuat},
                                                      {"EXPONENTIAL", meshopt_decodeFilterExp}};
+  require_memory(view.decoded_bytes(), view.place, "what it decodes to");
   Bytes decoded(view.decoded_bytes());
   if (decoders.at(view.mode)(decoded.data(), view.count, view.stride_bytes, source.data() + view.byte_offset,
                              view.byte_length) != 0)

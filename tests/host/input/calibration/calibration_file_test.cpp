@@ -386,5 +386,5 @@ TEST_CASE("XML is a list or a map, and no more values than YAML has") {
   std::string many;
   for (int i = 0; i < 250'001; ++i)
     many += "1 ";
-  CHECK_THAT(error_of(many), EndsWith("more than 250000 values"));
+  CHECK_THAT(error_of(many), EndsWith("expected at most 250000 values"));
 }
