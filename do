@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # All the set-up there is: ./do demo | run ARGS | test [--long|--smoke] | bench [ARGS] | build | package | wheel |
-# lint [--long]
+# lint [--long] | sanitize [address|thread]
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$root/build/release
@@ -42,6 +42,8 @@ usage: ./do COMMAND
   wheel      build and make a Python wheel that carries the library: build/pmdsim-VERSION-py3-none-PLATFORM.whl
   lint       check the formatting and look for mistakes with clang-tidy
              --long   each source by itself, with clang's analyzer
+  sanitize   build with sanitizers and run the tests of every day under them, for hours: address, which is also for
+             leaks and undefined behavior, or thread
 END
   exit 2
 }
@@ -226,6 +228,13 @@ lint_long() {
   tidy dev ''
 }
 
+# The tests of every day under the sanitizers of the preset $1; tests/sanitizers has their options.
+sanitize() {
+  configure "$1"
+  ninja -C "$root/build/$1" all 2>&1 | tell_of_build
+  ctest --test-dir "$root/build/$1" --output-on-failure --parallel 2 --label-exclude 'long|smoke'
+}
+
 command=${1:-}
 [ $# -gt 0 ] && shift
 case $command in
@@ -263,6 +272,13 @@ lint)
   case ${1:-} in
   --long) lint_long ;;
   '') lint ;;
+  *) usage ;;
+  esac
+  ;;
+sanitize)
+  case ${1:-address} in
+  address) sanitize sanitize ;;
+  thread) sanitize thread ;;
   *) usage ;;
   esac
   ;;

@@ -29,7 +29,7 @@ bool is_mostly_beyond(const Measurement &measured) {
 
 struct Simulator::State {
   explicit State(const SimulatorOptions &asked)
-      : wanted(asked), options(asked), instance(asked.validate), info(choose_device(instance, asked.device)),
+      : wanted(asked), options(asked), instance(asked.validation), info(choose_device(instance, asked.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
   void prepare();
