@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # All the set-up there is: ./do demo | run ARGS | test [--long|--smoke] | bench [ARGS] | build | package | wheel |
-# lint [--long] | fuzz [TARGET|all [SECONDS]]
+# lint [--long] | fuzz [TARGET|all [SECONDS]] | sanitize [address|thread]
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$root/build/release
@@ -45,6 +45,8 @@ usage: ./do COMMAND
              --long   each source by itself, with clang's analyzer
   fuzz       feed the readers of files, the C interface and the device what nobody writes: all targets of tests/fuzz,
              60 s each; ./do fuzz TARGET [SECONDS] one of them, ./do fuzz all SECONDS
+  sanitize   build with sanitizers and run the tests of every day under them, for hours: address, which is also for
+             leaks and undefined behavior, or thread
 END
   exit 2
 }
@@ -327,6 +329,13 @@ fuzz() {
   ((!${#failed[@]}))
 }
 
+# The tests of every day under the sanitizers of the preset $1; tests/sanitizers has their options.
+sanitize() {
+  configure "$1"
+  ninja -C "$root/build/$1" all 2>&1 | tell_of_build
+  ctest --test-dir "$root/build/$1" --output-on-failure --parallel 2 --label-exclude 'long|smoke'
+}
+
 command=${1:-}
 [ $# -gt 0 ] && shift
 case $command in
@@ -368,5 +377,12 @@ lint)
   esac
   ;;
 fuzz) fuzz "${1:-all}" "${2:-60}" ;;
+sanitize)
+  case ${1:-address} in
+  address) sanitize sanitize ;;
+  thread) sanitize thread ;;
+  *) usage ;;
+  esac
+  ;;
 *) usage ;;
 esac

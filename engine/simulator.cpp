@@ -33,7 +33,7 @@ bool is_mostly_beyond(const Measurement &measured) {
 // The device, and what lives on it from frame to frame.
 struct DeviceInUse {
   explicit DeviceInUse(const SimulatorOptions &asked)
-      : instance(asked.validate), info(choose_device(instance, asked.device)),
+      : instance(asked.validation), info(choose_device(instance, asked.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
   vulkan::Instance instance;

@@ -73,8 +73,7 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   options.device = device;
   set_extras(extras, options);
   // The program never changes its environment any more.
-  const char *validate = std::getenv("PMDSIM_VALIDATE"); // NOLINT(concurrency-mt-unsafe)
-  options.validate = validate && std::string_view(validate) == "1";
+  options.validation = validation_of(std::getenv("PMDSIM_VALIDATE")); // NOLINT(concurrency-mt-unsafe)
   simulator_.emplace(options);
   device_ = simulator_->device().name;
   driver_ = simulator_->device().driver;

@@ -38,7 +38,7 @@ bool names_the_reference(const std::string &device);
 class Camera {
 public:
   // `device` as SimulatorOptions::device, or "reference" in any case. Throws Error (no_device).
-  // PMDSIM_VALIDATE=1 in the environment sets SimulatorOptions::validate.
+  // PMDSIM_VALIDATE in the environment, 1 or gpu, sets SimulatorOptions::validation.
   explicit Camera(const std::string &device, const Extras &extras = {});
 
   // Frames from the next prepare() on have these beside their other channels.
