@@ -2,9 +2,9 @@
 #include "host/commands/commands.h"
 #include "host/environment.h"
 #include "host/input/words/utf8.h"
+#include "host/memory/memory_limit.h"
 #include "host/report/failure.h"
 #include "host/report/report.h"
-#include "host/memory/memory_limit.h"
 
 #include <algorithm>
 #include <array>
