@@ -12,7 +12,7 @@
 
 namespace {
 
-std::string text_of(const std::string &file) {
+std::string text_in_repository(const std::string &file) {
   std::ifstream in(PMDSIM_SOURCE_DIR "/" + file);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -23,7 +23,7 @@ struct LimitRow {
 
 std::vector<LimitRow> limit_rows() {
   static const std::regex row(R"(\| [^|]+ \| ([^|]+) \| `([^`]+)`: `([^`]+)` \|)");
-  const std::string text = text_of("docs/limits.md");
+  const std::string text = text_in_repository("docs/limits.md");
   std::vector<LimitRow> rows;
   for (std::sregex_iterator found(text.begin(), text.end(), row), end; found != end; ++found)
     rows.push_back({(*found)[1], (*found)[2], (*found)[3]});
@@ -49,7 +49,7 @@ std::optional<double> constant_in(const std::string &source, const std::string &
 }
 
 std::optional<double> limit_in(const LimitRow &row) {
-  const std::string text = text_of(row.file);
+  const std::string text = text_in_repository(row.file);
   if (!row.file.ends_with(".json"))
     return constant_in(text, row.name);
   return nlohmann::json::parse(text).at(nlohmann::json::json_pointer(row.name)).get<double>();
