@@ -2,6 +2,10 @@
 // the host's vectors, the host's loops or the shaders. Prints rows of the table of docs/reproducibility.md;
 // ends with 1 where the same bits are promised and are not found.
 
+// Code that tests share checks some of it by Catch, whose own main() is not wanted here.
+#define CATCH_CONFIG_RUNNER
+#include <catch2/catch.hpp>
+
 #include "tests/comparison/frame_bytes.h"
 #include "tests/comparison/frame_difference.h"
 #include "tests/support/simulator.h"

@@ -43,7 +43,8 @@ struct Folder {
     const std::string name = fmt::format("pmd_{:04}.txt", frame), text = fmt::format("{}{}", frame, held);
     files.add(name, [&](OutputFile &file) { file.write(text); });
     record.outputs.push_back({name, text.size()});
-    folder.publish(files, record_json(folder.run().hash, {record}));
+    RunFolder::add_record(files, record_json(folder.run().hash, {record}));
+    folder.publish(files, frame);
   }
 
   std::vector<int> listed() const {
@@ -264,7 +265,7 @@ TEST_CASE("a link in the place of the run's file is replaced, and what it leads 
   const auto victim = elsewhere.write("victim", "its bytes");
   const Folder folder;
   std::filesystem::create_directory(folder.path);
-  for (const std::filesystem::path to :
+  for (const std::filesystem::path &to :
        {std::filesystem::path("nothing"), victim, std::filesystem::path(".")})
     for (const char *name : {"run.json", "manifest.json", "0001.record.json"}) {
       std::filesystem::remove(folder.path / name);
