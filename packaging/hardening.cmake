@@ -1,6 +1,6 @@
 # What makes a mistake in reading a file end the program, instead of letting the file decide what the program does next.
-# What each option does is in docs/install.md, "Hardening"; tests/package/hardening.sh finds each in what was built. It
-# costs nothing that can be measured (BENCHMARKS.md). Sanitizers and fuzzers find more, and do not go together with it.
+# What each option does is in docs/install.md, "Hardening"; tests/package/hardening.sh finds each in what was built.
+# Sanitizers and fuzzers find more, and do not go together with it.
 option(PMDSIM_HARDENING "Build with what protects the program against files that were made to harm it" ON)
 if(NOT PMDSIM_HARDENING OR PMDSIM_SANITIZE OR PMDSIM_FUZZ)
   return()
