@@ -34,24 +34,15 @@ vk::raii::Context load() {
   }
 }
 
-std::vector<vk::ValidationFeatureEnableEXT> features_of(Validation validation) {
-  using Feature = vk::ValidationFeatureEnableEXT;
-  if (validation == Validation::calls_and_shaders)
-    return {Feature::eSynchronizationValidation, Feature::eGpuAssisted,
-            Feature::eGpuAssistedReserveBindingSlot};
-  return {Feature::eSynchronizationValidation};
-}
-
-// With `validation` under the layer, which speaks in `messages`.
-vk::raii::Instance create(const vk::raii::Context &loader, Validation validation,
-                          ValidationMessages *messages) {
+// With `messages` under the validation layer, which speaks there.
+vk::raii::Instance create(const vk::raii::Context &loader, ValidationMessages *messages) {
   const vk::ApplicationInfo application("pmdsim", 1, nullptr, 0, VK_API_VERSION_1_3);
   vk::InstanceCreateInfo info({}, &application);
-  const auto enabled = features_of(validation);
+  const auto synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
   const char *extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
   vk::DebugUtilsMessengerCreateInfoEXT messenger;
-  const vk::ValidationFeaturesEXT features(enabled, {}, &messenger);
-  if (validation != Validation::none) {
+  const vk::ValidationFeaturesEXT features(synchronization, {}, &messenger);
+  if (messages != nullptr) {
     messenger = messenger_info(*messages);
     info.setPEnabledLayerNames(validation_layer).setPEnabledExtensionNames(extension).setPNext(&features);
   }
@@ -75,7 +66,7 @@ struct Drivers {
 const Drivers &drivers() {
   static const Drivers *const kept = [] {
     vk::raii::Context loader = load();
-    vk::raii::Instance instance = create(loader, Validation::none, nullptr);
+    vk::raii::Instance instance = create(loader, nullptr);
     return new Drivers{std::move(loader), std::move(instance)};
   }();
   return *kept;
@@ -83,10 +74,10 @@ const Drivers &drivers() {
 
 } // namespace
 
-Instance::Instance(Validation validation) : instance_(&drivers().instance) {
-  if (validation == Validation::none)
+Instance::Instance(bool validate) : instance_(&drivers().instance) {
+  if (!validate)
     return;
-  validated_.emplace(create(drivers().loader, validation, &messages_));
+  validated_.emplace(create(drivers().loader, &messages_));
   messenger_.emplace(*validated_, messenger_info(messages_));
   instance_ = &*validated_;
 }

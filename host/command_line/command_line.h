@@ -4,7 +4,6 @@
 #include "host/command_line/accuracy_options.h"
 #include "host/command_line/correct_options.h"
 #include "host/command_line/diodes_options.h"
-#include "host/command_line/memory_options.h"
 #include "host/command_line/options.h"
 #include "host/command_line/report_options.h"
 #include "host/command_line/setup_options.h"
@@ -29,7 +28,7 @@ struct Written {
   WrittenReporting reporting;
   WrittenCorrect correct;
   WrittenDiodes diodes;
-  std::optional<std::string> samples, frames, shard, paths, suite_name, max_memory;
+  std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
   WrittenNew fresh;
   std::vector<std::string> formats, channels;

@@ -1,7 +1,6 @@
 #include "host/input/file/input_error.h"
 
 #include "host/input/file/json_position.h"
-#include "host/input/words/utf8.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,9 +9,11 @@
 namespace pmdsim {
 namespace {
 
-// File names and keys come from others too and may hold anything.
-Error line_error(std::string_view message, const std::filesystem::path &file, std::string_view place) {
-  return {ExitCode::input, in_one_line(message), {in_one_line(file.string()), in_one_line(place)}};
+// File names come from the user too and may hold line breaks.
+std::string one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char byte) { return byte < 0x20 || byte == 0x7f; }, '?');
+  return text;
 }
 
 // "FILE: POINTER", "FILE" for the empty pointer.
@@ -80,7 +81,7 @@ Error error_at(const Place &place, const Whence &whence, std::string_view messag
   const std::string line = fmt::format("{}{}: {}{}{}", place.file.string(), whence.position,
                                        within.substr(std::min(within.find_first_not_of(' '), within.size())),
                                        within.empty() ? "" : ": ", message);
-  return line_error(line, place.file, pointer);
+  return {ExitCode::input, one_line(line), {place.file.string(), pointer}};
 }
 
 bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80U; }
@@ -119,7 +120,9 @@ Error input_error(const TextPlace &place, std::string_view message) {
     return input_error(Place{place.file}, message);
   const std::string column = place.column == 0 ? "" : fmt::format(":{}", place.column);
   const std::string position = fmt::format("{}{}", place.line, column);
-  return line_error(fmt::format("{}:{}: {}", place.file.string(), position, message), place.file, position);
+  return {ExitCode::input,
+          one_line(fmt::format("{}:{}: {}", place.file.string(), position, message)),
+          {place.file.string(), position}};
 }
 
 Error input_error(const AnyPlace &place, std::string_view message) {
@@ -127,7 +130,7 @@ Error input_error(const AnyPlace &place, std::string_view message) {
 }
 
 Warning input_warning(const char *code, const Place &place, std::string text) {
-  return {code, in_one_line(text_of(place)), in_one_line(text)};
+  return {code, one_line(text_of(place)), one_line(std::move(text))};
 }
 
 } // namespace pmdsim

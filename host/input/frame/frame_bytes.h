@@ -15,6 +15,8 @@ struct FrameBytes {
   std::string content;
 };
 
+bool is_utf8(std::string_view text);
+
 // "FILE: MESSAGE", (input).
 Error frame_error(const FrameBytes &frame, std::string_view message);
 

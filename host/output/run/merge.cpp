@@ -180,8 +180,7 @@ void bring_frame(const Source &source, std::uint32_t frame, RunFolder &into, Mer
     for (const std::string name : sensor.at("manifest").at("outputs"))
       ++(bring(source.path / name, into.path() / name) ? merged.linked : merged.copied);
   OutputSet of_record(into.path());
-  RunFolder::add_record(of_record, *record);
-  into.publish(of_record, frame);
+  into.publish(of_record, *record);
 }
 
 } // namespace

@@ -74,8 +74,6 @@ class Simulator:
         "reference", the CPU in double precision, which is slow. By default the library chooses.
     scene : pmdsim.Scene, optional
         Triangles in place of the setup's scene.
-    allow_outside : bool, optional
-        As `load` takes it.
 
     Raises
     ------
@@ -101,12 +99,7 @@ class Simulator:
     """
 
     def __init__(
-        self,
-        setup: Optional[SetupLike] = None,
-        device: Optional[Device] = None,
-        *,
-        scene: Optional[Scene] = None,
-        allow_outside: bool = False,
+        self, setup: Optional[SetupLike] = None, device: Optional[Device] = None, *, scene: Optional[Scene] = None
     ) -> None:
         self._handle = 0
         _refuse_after_fork()
@@ -129,7 +122,7 @@ class Simulator:
         self._setup_directory = ""
         if setup is not None:
             try:
-                self._load(setup, scene, allow_outside, stacklevel=3)
+                self._load(setup, scene, stacklevel=3)
             except BaseException:
                 self.close()
                 raise
@@ -200,7 +193,7 @@ class Simulator:
             name_file(error, setup_file)
             raise
 
-    def load(self, setup: SetupLike, *, scene: Optional[Scene] = None, allow_outside: bool = False) -> None:
+    def load(self, setup: SetupLike, *, scene: Optional[Scene] = None) -> None:
         """Takes a setup in place of the one before; changes that were set are gone.
 
         Parameters
@@ -210,8 +203,6 @@ class Simulator:
             `Setup.directory`, else at the process's. "scene" may be a pmdsim.Scene.
         scene : pmdsim.Scene, optional
             Triangles in place of the setup's "scene". Poses at nodes are an error then.
-        allow_outside : bool, optional
-            Whether files that the scene names may lie outside of its folder: for scenes that you trust.
 
         Raises
         ------
@@ -220,17 +211,12 @@ class Simulator:
         ArgumentError
             A value is none that JSON has, such as NaN.
         """
-        self._load(setup, scene, allow_outside, stacklevel=3)
+        self._load(setup, scene, stacklevel=3)
 
-    def _load(self, setup: SetupLike, scene: Optional[Scene], allow_outside: bool, stacklevel: int) -> None:
+    def _load(self, setup: SetupLike, scene: Optional[Scene], stacklevel: int) -> None:
         handle = self._usable()
         given = SetupInput(setup, scene)
-
-        def take() -> None:
-            check(library().pmdsim_simulator_allow_outside(handle, int(bool(allow_outside))))
-            given.load(handle)
-
-        self._call(take, given.file)
+        self._call(lambda: given.load(handle), given.file)
         self._setup_file, self._setup_directory = given.file, given.directory
         self._described = None
         self._warned = set()
