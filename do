@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # All the set-up there is: ./do demo | run ARGS | test [--long|--smoke] | bench [ARGS] | build | package | wheel |
-# lint [--long]
+# lint [--long] | fuzz [TARGET|all [SECONDS]] | sanitize [address|thread]
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$root/build/release
@@ -17,11 +17,12 @@ packages=(
   catch2 python3-numpy
 )
 
-# What long tests of packages, manual pages, clusters and pages need; all but the last are skipped where there are no such
-# packages.
+# What long tests of packages, manual pages, clusters, fuzzers and pages need; all but the last are skipped where there are
+# no such packages.
 packages_of_long_tests=(
   mmdebstrap groff-base man-db zsh fish
   slurm-wlm munge procps python3-distributed python3-dask
+  clang-19 libclang-rt-19-dev
   chromium chromium-driver python3-selenium
   python3-pil
 )
@@ -42,6 +43,10 @@ usage: ./do COMMAND
   wheel      build and make a Python wheel that carries the library: build/pmdsim-VERSION-py3-none-PLATFORM.whl
   lint       check the formatting and look for mistakes with clang-tidy
              --long   each source by itself, with clang's analyzer
+  fuzz       feed the readers of files, the C interface and the device what nobody writes: all targets of tests/fuzz,
+             60 s each; ./do fuzz TARGET [SECONDS] one of them, ./do fuzz all SECONDS
+  sanitize   build with sanitizers and run the tests of every day under them, for hours: address, which is also for
+             leaks and undefined behavior, or thread
 END
   exit 2
 }
@@ -226,6 +231,111 @@ lint_long() {
   tidy dev ''
 }
 
+# Clang with libFuzzer, the newest of Debian's that is here.
+fuzzing_clang() {
+  local clang
+  for clang in clang++-19 clang++-16 clang++-15 clang++-14 clang++; do
+    if command -v "$clang" >/dev/null && ls "$("$clang" -print-resource-dir)"/lib/*/*fuzzer-* >/dev/null 2>&1; then
+      echo "$clang"
+      return
+    fi
+  done
+  return 1
+}
+
+install_fuzzing_clang() {
+  if fuzzing_clang >/dev/null; then return; fi
+  install_if_possible clang-19 libclang-rt-19-dev
+  if fuzzing_clang >/dev/null; then return; fi
+  install_if_possible clang-14 libclang-rt-14-dev
+  if fuzzing_clang >/dev/null; then return; fi
+  say "fuzz needs clang++ with libFuzzer"
+  exit 1
+}
+
+fuzz_targets() { basename -s .cpp "$root"/tests/fuzz/targets/*.cpp; }
+
+configure_fuzzers() {
+  if [ -f "$root/build/fuzz/build.ninja" ]; then return; fi
+  install_missing
+  install_fuzzing_clang
+  say "configuring in build/fuzz"
+  (cd "$root" && cmake --preset fuzz -DCMAKE_CXX_COMPILER="$(fuzzing_clang)") >&2
+}
+
+# Frames of lavapipe take more memory. Of damaged files HDF5 asks for memory of any size and takes the answer that there is
+# none.
+options_of_fuzz_target() {
+  case $1 in
+  setups) echo -rss_limit_mb=6144 -timeout=300 ;;
+  library) echo -rss_limit_mb=2048 -timeout=10 ;;
+  hdf5 | array) echo -rss_limit_mb=1024 -malloc_limit_mb=1000000 -timeout=5 ;;
+  *) echo -rss_limit_mb=1024 -timeout=5 ;;
+  esac
+}
+
+# Lavapipe's compiler and, of damaged files, HDF5 free not all that they have.
+sanitizer_options_of_fuzz_target() {
+  case $1 in
+  setups | hdf5 | array) echo quarantine_size_mb=16:allocator_may_return_null=1:detect_leaks=0 ;;
+  *) echo quarantine_size_mb=16:allocator_may_return_null=1 ;;
+  esac
+}
+
+# One line of what libFuzzer wrote to the file $2 of target $1.
+fuzz_summary() {
+  awk -v target="$1" '
+    / cov: / { for (i = 1; i < NF; ++i) if ($i == "cov:") cov = $(i + 1) }
+    /stat::number_of_executed_units/ { runs = $2 }
+    /stat::average_exec_per_sec/ { rate = $2 }
+    END { printf "%-14s %12d executions %8d/s   cov %6d\n", target, runs, rate, cov }' "$2"
+}
+
+# Target $1 for $2 seconds, from the repository's inputs and those that earlier runs have found.
+fuzz_one() {
+  local folder=$root/build/fuzz dictionary=$root/tests/fuzz/dictionaries/$1.dict status=0 arguments=()
+  local program=$folder/tests/fuzz/fuzz_$1 log=$folder/logs/$1.log files options
+  mkdir -p "$folder/corpus/$1" "$folder/found" "$folder/logs"
+  [ ! -f "$dictionary" ] || arguments+=("-dict=$dictionary")
+  read -r -a options <<<"$(options_of_fuzz_target "$1")"
+  files=$(mktemp -d "$([ -d /dev/shm ] && echo /dev/shm || echo /tmp)/pmdsim-fuzz-XXXXXX")
+  TMPDIR=$files ASAN_OPTIONS=$(sanitizer_options_of_fuzz_target "$1") UBSAN_OPTIONS=print_stacktrace=1 \
+    "$program" "${options[@]}" "${arguments[@]}" -max_total_time="$2" -print_final_stats=1 -close_fd_mask=1 \
+    -artifact_prefix="$folder/found/$1-" "$folder/corpus/$1" "$root/tests/fuzz/corpus/$1" >/dev/null 2>"$log" || status=$?
+  rm -rf "$files"
+  fuzz_summary "$1" "$log"
+  if ((status == 0)); then return; fi
+  sed -n '/ERROR\|runtime error\|terminate called\|what():\|in the line:\|^SUMMARY\|Test unit written/p' "$log" >&2
+  say "$1 failed; all that it said is in ${log#"$PWD"/}; again with" \
+    "$program $(sed -n 's/.*Test unit written to //p' "$log" | tail -n 1)"
+  return 1
+}
+
+fuzz() {
+  local target failed=() targets=()
+  mapfile -t targets < <(fuzz_targets)
+  if [ "$1" != all ]; then
+    if ! printf '%s\n' "${targets[@]}" | grep -qxF -- "$1"; then
+      say "no fuzz target $1; there are all, ${targets[*]}"
+      exit 2
+    fi
+    targets=("$1")
+  fi
+  configure_fuzzers
+  ninja -C "$root/build/fuzz" "${targets[@]/#/fuzz_}" 2>&1 | tell_of_build
+  for target in "${targets[@]}"; do
+    fuzz_one "$target" "$2" || failed+=("$target")
+  done
+  ((!${#failed[@]}))
+}
+
+# The tests of every day under the sanitizers of the preset $1; tests/sanitizers has their options.
+sanitize() {
+  configure "$1"
+  ninja -C "$root/build/$1" all 2>&1 | tell_of_build
+  ctest --test-dir "$root/build/$1" --output-on-failure --parallel 2 --label-exclude 'long|smoke'
+}
+
 command=${1:-}
 [ $# -gt 0 ] && shift
 case $command in
@@ -263,6 +373,14 @@ lint)
   case ${1:-} in
   --long) lint_long ;;
   '') lint ;;
+  *) usage ;;
+  esac
+  ;;
+fuzz) fuzz "${1:-all}" "${2:-60}" ;;
+sanitize)
+  case ${1:-address} in
+  address) sanitize sanitize ;;
+  thread) sanitize thread ;;
   *) usage ;;
   esac
   ;;

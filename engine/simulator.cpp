@@ -4,8 +4,11 @@
 #include "engine/model/error.h"
 #include "engine/multipath/multipath.h"
 #include "engine/vulkan/commands.h"
+#include "engine/vulkan/errors.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -27,11 +30,28 @@ bool is_mostly_beyond(const Measurement &measured) {
 
 } // namespace
 
-struct Simulator::State {
-  explicit State(const SimulatorOptions &asked)
-      : wanted(asked), options(asked), instance(asked.validate), info(choose_device(instance, asked.device)),
+// The device, and what lives on it from frame to frame.
+struct DeviceInUse {
+  explicit DeviceInUse(const SimulatorOptions &asked)
+      : instance(asked.validation), info(choose_device(instance, asked.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
+  vulkan::Instance instance;
+  DeviceInfo info;
+  vulkan::Device device;
+  vulkan::PassRecorder recorder;
+  TextureCache textures;
+};
+
+struct Simulator::State {
+  explicit State(const SimulatorOptions &asked)
+      : wanted(asked), options(asked),
+        in_use(vulkan::checked([&] { return std::make_unique<DeviceInUse>(asked); })), info(in_use->info) {}
+
+  // Whatever Vulkan throws there becomes an Error.
+  template <class Use>
+  auto with_device(const Use &use);
+  void set_up_again();
   void prepare();
   bool is_kept(const Measurement &measured);
   bool refine();
@@ -39,11 +59,9 @@ struct Simulator::State {
 
   SimulatorOptions wanted;
   SimulatorOptions options; // what a frame takes: more than was wanted where it turned out to need that
-  vulkan::Instance instance;
+  std::unique_ptr<DeviceInUse> in_use; // null where the one that was lost did not come back
   DeviceInfo info;
-  vulkan::Device device;
-  vulkan::PassRecorder recorder;
-  TextureCache textures;
+  bool is_lost = false;
   std::optional<FrameRequest> requested;
   std::uint32_t attempt = 0; // of frame_plans; made again where one does not keep the error asked for
   std::optional<Frame> frame;
@@ -62,10 +80,32 @@ Measurement Simulator::State::spare_memory() {
   return memory;
 }
 
+template <class Use>
+auto Simulator::State::with_device(const Use &use) {
+  try {
+    return vulkan::checked(use);
+  } catch (const Error &error) {
+    is_lost = is_lost || error.code() == ExitCode::device_lost;
+    throw;
+  }
+}
+
+void Simulator::State::set_up_again() {
+  frame.reset();
+  in_use.reset(); // first, as a driver may give a device to one user alone
+  try {
+    in_use = vulkan::checked([&] { return std::make_unique<DeviceInUse>(wanted); });
+  } catch (const Error &error) {
+    throw Error(ExitCode::device_lost,
+                fmt::format("the device was lost and does not come back: {}", error.what()));
+  }
+  is_lost = false;
+}
+
 void Simulator::State::prepare() {
   const auto make = [&](SpareMemory &&memory) {
     frame.reset(); // the rest of its memory first
-    frame.emplace(device, options, *requested, attempt, textures, std::move(memory));
+    frame.emplace(in_use->device, options, *requested, attempt, in_use->textures, std::move(memory));
   };
   try {
     make(frame ? frame->release_memory() : SpareMemory());
@@ -74,8 +114,8 @@ void Simulator::State::prepare() {
       throw;
     make({}); // there may be room without what was to be used again
   }
-  textures.drop_unused();
-  frame->warm_up(recorder);
+  in_use->textures.drop_unused();
+  frame->warm_up(in_use->recorder);
 }
 
 // The next plan; false where there is none.
@@ -143,7 +183,9 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
   state_->options.keep_sample_ids = state_->wanted.keep_sample_ids || (bounces.any() && sensor.samples > 1);
   if (bounces.any())
     state_->multipath.prepare({scene, sensor, illuminators, shadows, bounces});
-  state_->prepare();
+  if (state_->is_lost)
+    state_->set_up_again();
+  state_->with_device([&] { state_->prepare(); });
 }
 
 std::vector<std::pair<std::string, std::string>> Simulator::path() const {
@@ -167,14 +209,17 @@ Measurement Simulator::measure(const Progress &progress, const ExposureNumber &n
   const auto bounces_progress = [&](double fraction) { progress(of_frame + (1.0 - of_frame) * fraction); };
   const Progress none = [](double) {};
   const auto measure_once = [&] {
-    return state_->frame->measure(state_->recorder, state_->spare_memory(),
+    return state_->frame->measure(state_->in_use->recorder, state_->spare_memory(),
                                   progress && state_->bounces ? direct_progress : progress, number);
   };
-  Measurement measured = measure_once();
-  while (!state_->is_kept(measured)) {
-    reuse(std::move(measured));
-    measured = measure_once();
-  }
+  Measurement measured = state_->with_device([&] {
+    Measurement attempt = measure_once();
+    while (!state_->is_kept(attempt)) {
+      reuse(std::move(attempt));
+      attempt = measure_once();
+    }
+    return attempt;
+  });
   measured.bounces.reset();
   if (state_->bounces)
     state_->multipath.add_to(measured, progress ? bounces_progress : none);

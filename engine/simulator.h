@@ -40,9 +40,10 @@ public:
   void change(const SimulatorOptions &options);
 
   // With Mode::automatic `scene` must outlive the frames, which may have to be prepared anew, more exact.
-  // Uploads what a frame needs and compiles its shaders. Throws Error: out_of_memory, device_lost, accuracy
-  // (the error asked for cannot be promised), input (diodes of intensities more than 1e25 apart). With
-  // bounces surfaces have to be Backscatter::lambert, and `scene` has to outlive the frames.
+  // Uploads what a frame needs and compiles its shaders. A device that was lost is set up anew first. Throws
+  // Error: out_of_memory, device_lost, accuracy (the error asked for cannot be promised), input (diodes of
+  // intensities more than 1e25 apart). With bounces surfaces have to be Backscatter::lambert, and `scene` has
+  // to outlive the frames.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter, Shadows shadows = Shadows::off, const Accuracy &accuracy = {},
                const Bounces &bounces = {});

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace pmdsim {
 
@@ -11,6 +12,18 @@ namespace pmdsim {
 enum class SamplePrecision { automatic, double_float };
 // The shape of the accumulate pass: a straight line for CPUs, a loop for GPUs.
 enum class DiodeLoop { automatic, straight_line, looped };
+
+// What Vulkan's validation layer looks at: nothing; every call and all synchronization; or also, by code that
+// it adds to the shaders, which addresses and array elements they reach.
+enum class Validation { none, calls, calls_and_shaders };
+
+// As the environment variable PMDSIM_VALIDATE says it, if it is set: "1" or "gpu".
+inline Validation validation_of(const char *value) {
+  const std::string_view wanted = value ? value : "";
+  return wanted == "gpu" ? Validation::calls_and_shaders
+         : wanted == "1" ? Validation::calls
+                         : Validation::none;
+}
 
 // Forms of a frame's path that are faster where a setup allows them. Each may be forbidden, so that tests and
 // benchmarks see a frame with it and without. None changes a result beyond the frame's stated error.
@@ -45,8 +58,8 @@ struct SimulatorOptions {
   // The frame's last pass counts the electrons of a sensor with electronics (Measurement::has_electrons), in
   // mode exact, without bounces, and where counts_by_strips() of engine/electronics/electrons.h says so.
   bool count_electrons = false;
-  bool keep_error_bound = false; // fill Return::error_bound_m wherever an error was asked for
-  bool validate = false;         // run under the Khronos validation layer; a message is a std::logic_error
+  bool keep_error_bound = false;            // fill Return::error_bound_m wherever an error was asked for
+  Validation validation = Validation::none; // by the Khronos layer; a message is a std::logic_error
   SamplePrecision precision = SamplePrecision::automatic;
   DiodeLoop loop = DiodeLoop::automatic;
   std::uint32_t host_vector_bits = 512; // of the host's loops, at most

@@ -100,7 +100,7 @@ namespace pmdsim {
 
 std::vector<DeviceInfo> list_devices() {
   try {
-    return vulkan::devices_of(vulkan::Instance(false));
+    return vulkan::devices_of(vulkan::Instance(Validation::none));
   } catch (const Error &error) {
     if (error.code() == ExitCode::no_device)
       return {};

@@ -10,8 +10,8 @@
 
 namespace pmdsim::vulkan {
 
-// Runs `work` and turns what Vulkan throws into an Error: out of memory, device lost, or no usable device.
-// Any other exception is a mistake of ours and stays a std::exception.
+// Runs `work` and turns what Vulkan throws into an Error: out of memory, device lost (or failed in a way that
+// has no name), or no usable device. Any other exception is a mistake of ours and stays a std::exception.
 template <typename Work>
 auto checked(Work &&work) -> decltype(work()) {
   try {
@@ -30,6 +30,10 @@ auto checked(Work &&work) -> decltype(work()) {
     throw Error(ExitCode::out_of_memory, std::string("device memory cannot be mapped: ") + error.what());
   } catch (const vk::TooManyObjectsError &error) {
     throw Error(ExitCode::out_of_memory, std::string("too many allocations on the device: ") + error.what());
+  } catch (const vk::OutOfPoolMemoryError &error) {
+    throw Error(ExitCode::out_of_memory, std::string("out of the device's pool memory: ") + error.what());
+  } catch (const vk::SystemError &error) { // a device that answers so is of no more use than a lost one
+    throw Error(ExitCode::device_lost, std::string("the device failed: ") + error.what());
   }
 }
 

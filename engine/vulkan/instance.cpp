@@ -34,15 +34,24 @@ vk::raii::Context load() {
   }
 }
 
-// With `messages` under the validation layer, which speaks there.
-vk::raii::Instance create(const vk::raii::Context &loader, ValidationMessages *messages) {
+std::vector<vk::ValidationFeatureEnableEXT> features_of(Validation validation) {
+  using Feature = vk::ValidationFeatureEnableEXT;
+  if (validation == Validation::calls_and_shaders)
+    return {Feature::eSynchronizationValidation, Feature::eGpuAssisted,
+            Feature::eGpuAssistedReserveBindingSlot};
+  return {Feature::eSynchronizationValidation};
+}
+
+// With `validation` under the layer, which speaks in `messages`.
+vk::raii::Instance create(const vk::raii::Context &loader, Validation validation,
+                          ValidationMessages *messages) {
   const vk::ApplicationInfo application("pmdsim", 1, nullptr, 0, VK_API_VERSION_1_3);
   vk::InstanceCreateInfo info({}, &application);
-  const auto synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
+  const auto enabled = features_of(validation);
   const char *extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
   vk::DebugUtilsMessengerCreateInfoEXT messenger;
-  const vk::ValidationFeaturesEXT features(synchronization, {}, &messenger);
-  if (messages != nullptr) {
+  const vk::ValidationFeaturesEXT features(enabled, {}, &messenger);
+  if (validation != Validation::none) {
     messenger = messenger_info(*messages);
     info.setPEnabledLayerNames(validation_layer).setPEnabledExtensionNames(extension).setPNext(&features);
   }
@@ -66,7 +75,7 @@ struct Drivers {
 const Drivers &drivers() {
   static const Drivers *const kept = [] {
     vk::raii::Context loader = load();
-    vk::raii::Instance instance = create(loader, nullptr);
+    vk::raii::Instance instance = create(loader, Validation::none, nullptr);
     return new Drivers{std::move(loader), std::move(instance)};
   }();
   return *kept;
@@ -74,10 +83,10 @@ const Drivers &drivers() {
 
 } // namespace
 
-Instance::Instance(bool validate) : instance_(&drivers().instance) {
-  if (!validate)
+Instance::Instance(Validation validation) : instance_(&drivers().instance) {
+  if (validation == Validation::none)
     return;
-  validated_.emplace(create(drivers().loader, &messages_));
+  validated_.emplace(create(drivers().loader, validation, &messages_));
   messenger_.emplace(*validated_, messenger_info(messages_));
   instance_ = &*validated_;
 }

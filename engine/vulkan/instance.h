@@ -1,6 +1,8 @@
 #pragma once
 // The Vulkan loader, the instance and the devices that it offers.
 
+#include "engine/model/simulator_options.h"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,10 +15,9 @@ using ValidationMessages = std::vector<std::string>;
 
 class Instance {
 public:
-  // The process's, whose drivers stay loaded; with `validate` under VK_LAYER_KHRONOS_validation,
-  // synchronization validation included. Throws Error: no_device where there is no loader, no driver or (with
-  // `validate`) no layer.
-  explicit Instance(bool validate);
+  // The process's, whose drivers stay loaded; with `validation` under VK_LAYER_KHRONOS_validation. Throws
+  // Error: no_device where there is no loader, no driver or (with `validation`) no layer.
+  explicit Instance(Validation validation);
   // Ends the process where the validation layer has spoken: nobody could throw what it says while objects are
   // destroyed.
   ~Instance();

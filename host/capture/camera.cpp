@@ -3,8 +3,12 @@
 #include "engine/electronics/electrons.h"
 #include "engine/electronics/scatter.h"
 #include "engine/model/channels.h"
+#include "engine/model/error.h"
 #include "engine/signal/unwrapping.h"
+#include "host/capture/exposure.h"
 #include "host/capture/progress.h"
+#include "host/memory/byte_count.h"
+#include "host/memory/memory_limit.h"
 
 #include <algorithm>
 #include <cctype>
@@ -42,6 +46,23 @@ void set_extras(const Extras &extras, SimulatorOptions &options) {
 
 } // namespace
 
+MemoryForecast forecast_of(const Setup &setup, const Sensor &sensor, const Extras &extras, MeasuredBy by,
+                           std::size_t written_bytes) {
+  FrameToForecast frame{setup.start.scene,
+                        sensor,
+                        setup.start.illuminators,
+                        setup.bounces,
+                        bytes_of_frame(sensor, extras.taps, setup.bounces, {}, extras.unrounded),
+                        by};
+  if (setup.bounces.any() && by != MeasuredBy::reference)
+    frame.elements = forecast_bounces(setup.start.scene, sensor, setup.bounces).elements;
+  frame.frames_at_once = std::size_t{setup.frames.count} * setup.start.sensors.size() > 1 ? 2 : 1;
+  frame.is_written = true;
+  frame.made_bytes = written_bytes - std::min(written_bytes, frame.frame_bytes);
+  frame.moves = setup.motion != nullptr;
+  return forecast_memory(frame);
+}
+
 Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras), wanted_(device) {
   if (names_the_reference(device)) {
     device_ = "reference";
@@ -52,11 +73,16 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   options.device = device;
   set_extras(extras, options);
   // The program never changes its environment any more.
-  const char *validate = std::getenv("PMDSIM_VALIDATE"); // NOLINT(concurrency-mt-unsafe)
-  options.validate = validate && std::string_view(validate) == "1";
+  options.validation = validation_of(std::getenv("PMDSIM_VALIDATE")); // NOLINT(concurrency-mt-unsafe)
   simulator_.emplace(options);
   device_ = simulator_->device().name;
   driver_ = simulator_->device().driver;
+}
+
+MeasuredBy Camera::measured_by() const {
+  if (!simulator_)
+    return MeasuredBy::reference;
+  return simulator_->device().kind == "discrete GPU" ? MeasuredBy::device_apart : MeasuredBy::device_in_host;
 }
 
 void Camera::give(const Extras &extras) {
@@ -73,6 +99,8 @@ void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector
                      const Bounces &bounces) {
   throw_if_interrupted();
   sensor_ = sensor;
+  ask_for_memory({scene, sensor, illuminators, bounces,
+                  bytes_of_frame(sensor, extras_.taps, bounces, {}, extras_.unrounded), measured_by()});
   if (simulator_)
     return simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy, bounces);
   const reference::Options options{.shadows = shadows, .bounces = bounces, .paths = extras_.paths};
@@ -80,6 +108,29 @@ void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector
   reference_frame_ = [=, &scene](const Progress &progress) {
     return reference::simulate(scene, sensor, illuminators, backscatter, options, progress);
   };
+}
+
+// What the frames before were granted is taken already. Strips become shorter before a frame is refused.
+void Camera::ask_for_memory(FrameToForecast frame) {
+  constexpr std::uint32_t short_strip = 1u << 16;
+  const auto lack_of = [&](const MemoryForecast &forecast) {
+    return lack_of_memory(forecast.bytes() - std::min(granted_bytes_, forecast.bytes()));
+  };
+  MemoryForecast forecast = forecast_memory(frame);
+  std::optional<std::string> lack = lack_of(forecast);
+  if (lack && simulator_) {
+    frame.max_strip_samples = short_strip;
+    forecast = forecast_memory(frame);
+    lack = lack_of(forecast);
+  }
+  if (lack)
+    throw lacking_memory(frame.sensor, forecast, *lack);
+  granted_bytes_ = std::max(granted_bytes_, forecast.bytes());
+  if (!simulator_ || simulator_->options().max_strip_samples == frame.max_strip_samples)
+    return;
+  SimulatorOptions options = simulator_->options();
+  options.max_strip_samples = frame.max_strip_samples;
+  simulator_->change(options);
 }
 
 void Camera::prepare(const Setup &setup, const Sensor &sensor, const Accuracy &accuracy) {

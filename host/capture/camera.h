@@ -4,6 +4,7 @@
 #include "engine/reference/reference.h"
 #include "engine/simulator.h"
 #include "host/input/setup/setup.h"
+#include "host/report/memory_forecast.h"
 
 #include <cstdint>
 #include <functional>
@@ -26,25 +27,34 @@ struct Extras {
   std::uint32_t paths = 0;
 };
 
+// What a frame of the sensor, which is one of the setup's, takes beside the setup. `written_bytes`: of what
+// is written of it, as bytes_of_largest_frame() counts.
+MemoryForecast forecast_of(const Setup &setup, const Sensor &sensor, const Extras &extras, MeasuredBy by,
+                           std::size_t written_bytes);
+
 // Whether a device's name, in any case, is the one of the reference.
 bool names_the_reference(const std::string &device);
 
 class Camera {
 public:
   // `device` as SimulatorOptions::device, or "reference" in any case. Throws Error (no_device).
-  // PMDSIM_VALIDATE=1 in the environment sets SimulatorOptions::validate.
+  // PMDSIM_VALIDATE in the environment, 1 or gpu, sets SimulatorOptions::validation.
   explicit Camera(const std::string &device, const Extras &extras = {});
 
   // Frames from the next prepare() on have these beside their other channels.
   void give(const Extras &extras);
 
   const std::string &wanted() const { return wanted_; } // as the constructor was told
+  const Extras &extras() const { return extras_; }
   const std::string &device() const { return device_; }
   const std::string &driver() const { return driver_; }
   bool is_reference() const { return !simulator_; }
+  MeasuredBy measured_by() const;
+  // What frames so far were granted of memory, and hold on to.
+  std::uint64_t granted_bytes() const { return granted_bytes_; }
 
   // Measurements from here on are of this. `scene` must outlive them. The reference is always as exact as it
-  // can be.
+  // can be. Throws Error: also (out_of_memory) where the forecast of a frame does not fit.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter, Shadows shadows, const Accuracy &accuracy = {},
                const Bounces &bounces = {});
@@ -74,10 +84,12 @@ private:
   // What the light goes through before the electronics read it.
   void add_and_scatter(const AddLight &add, Measurement &measurement) const;
   Measurement measurement_of(const reference::Frame &frame, const ExposureNumber &number) const;
+  void ask_for_memory(FrameToForecast frame);
 
   Extras extras_;
   Sensor sensor_; // that is prepared
   std::uint32_t diode_count_ = 0;
+  std::uint64_t granted_bytes_ = 0; // for the frames before
   std::string wanted_, device_, driver_;
 };
 

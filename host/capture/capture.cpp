@@ -2,6 +2,7 @@
 
 #include "engine/model/error.h"
 #include "host/input/file/input_error.h"
+#include "host/memory/memory_limit.h"
 #include "host/output/sheets/sheets.h"
 #include "host/report/frame_findings.h"
 #include "host/report/report.h"
@@ -68,6 +69,7 @@ RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::st
 
 SetupDocument requested_document(const CaptureRequest &request, const std::filesystem::path &file) {
   SetupDocument document = read_setup_document(file);
+  document.scene_files = request.scene_files;
   if (request.poses)
     change(document, changes_for(*request.poses, document), "--poses");
   change(document, request.changes, "--set");
@@ -189,7 +191,11 @@ std::string Capture::device_text() const {
 TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<double> next_s,
                          const std::string &label) {
   bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
+  const bool was_lost = !exposures_.loss().empty();
   TakenFrame taken = exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
+  if (!was_lost && !exposures_.loss().empty())
+    tell(fmt::format("note: {}; it was set up anew, and frame {} was made again", exposures_.loss(),
+                     at.frame));
   taken.warnings = frame_warnings(setup_, taken.sensor, taken.measurement, accuracy_);
   if (sequence().run().command == "deform") // whose differences do not mind how often a distance wraps
     std::erase_if(taken.warnings, [](const Warning &warning) { return warning.code == "beyond-ambiguity"; });
@@ -204,6 +210,7 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
 
 void Capture::write(const FrameSequence::Measure &measure, std::size_t part_bytes,
                     double exposures_of_sample) {
+  const std::uint64_t room = room_for_waiting(part_bytes + bytes_of_normals());
   const double work_of_frame = exposures_of_sample * samples_of_frame(setup_);
   bar_.emplace(sequence_.begin() * work_of_frame, part_);
   const auto measure_next = [&](const SensorFrame &at) {
@@ -212,12 +219,29 @@ void Capture::write(const FrameSequence::Measure &measure, std::size_t part_byte
     return measure(at);
   };
   try {
-    sequence_.write(measure_next, part_bytes + bytes_of_normals());
+    sequence_.write(measure_next, part_bytes + bytes_of_normals(), room);
   } catch (...) {
     tell_warnings();
     throw;
   }
   tell_warnings();
+}
+
+// What is left beside a frame that is measured and one that is written. Throws Error (out_of_memory) where
+// these do not fit.
+std::uint64_t Capture::room_for_waiting(std::size_t part_bytes) const {
+  const Camera &camera = exposures_.camera();
+  std::uint64_t most = 0;
+  for (const Sensor &sensor : setup_.start.sensors) {
+    const MemoryForecast forecast =
+        forecast_of(setup_, sensor, camera.extras(), camera.measured_by(), part_bytes);
+    const std::uint64_t held = std::min(camera.granted_bytes(), forecast.bytes());
+    if (const auto lack = lack_of_memory(forecast.bytes() - held))
+      throw lacking_memory(sensor, forecast, *lack);
+    most = std::max(most, forecast.bytes() - held);
+  }
+  const std::uint64_t left = memory_left();
+  return left - std::min(left, most);
 }
 
 void Capture::tell_warnings() {

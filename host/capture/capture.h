@@ -22,6 +22,7 @@ struct CaptureRequest {
   std::filesystem::path setup;
   nlohmann::json changes = nlohmann::json::object(); // of the setup, as change() takes them
   std::optional<PosesFromFile> poses;                // likewise
+  UriFiles scene_files = UriFiles::beside;           // those that its scene names
   std::optional<SampleChoice> samples;               // instead of the setup's
   std::string device;                                // as Camera's
   std::uint32_t paths = 0;                           // of the reference, as Extras
@@ -98,6 +99,7 @@ public:
 
 private:
   std::size_t bytes_of_normals() const; // of the largest sensor's frame
+  std::uint64_t room_for_waiting(std::size_t part_bytes) const;
   void tell_warnings();
 
   Setup setup_;

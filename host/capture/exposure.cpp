@@ -4,6 +4,7 @@
 #include "engine/electronics/scatter.h"
 #include "engine/lens/view_channels.h"
 #include "engine/model/channels.h"
+#include "engine/model/error.h"
 #include "engine/model/tap_sequence.h"
 #include "engine/signal/unwrapping.h"
 #include "host/capture/multipath_of_taps.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <system_error>
 
 namespace pmdsim {
 namespace {
@@ -46,7 +48,11 @@ void Instants::expect(double time_s) {
   if (holds(time_s) || (coming_ && coming_->time_s == time_s))
     return;
   coming_.reset(); // waits for a thread that computes in vain
-  coming_ = {time_s, std::async(std::launch::async, [this, time_s] { return setup_.at(time_s); })};
+  try {
+    coming_ = {time_s, std::async(std::launch::async, [this, time_s] { return setup_.at(time_s); })};
+  } catch (const std::system_error &) {
+    coming_.reset(); // no thread can be started: at() computes it
+  }
 }
 
 void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes) {
@@ -239,12 +245,22 @@ void Exposures::add_view(double time_s, const Sensor &sensor, Measurement &frame
 
 TakenFrame Exposures::take(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                            std::optional<double> next_s) {
+  const auto attempt = [&] {
+    try {
+      return take_whole(sensor, number, light, progress, next_s);
+    } catch (...) {
+      prepared_.reset(); // the simulator may have given up its frame
+      throw;
+    }
+  };
   try {
-    return take_whole(sensor, number, light, progress, next_s);
-  } catch (...) {
-    prepared_.reset(); // the simulator may have given up its frame
-    throw;
+    return attempt();
+  } catch (const Error &error) {
+    if (error.code() != ExitCode::device_lost || !loss_.empty())
+      throw;
+    loss_ = error.what();
   }
+  return attempt();
 }
 
 TakenFrame Exposures::take_whole(std::size_t sensor, std::uint32_t number, Light light,

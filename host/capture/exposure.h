@@ -121,10 +121,13 @@ public:
   std::shared_ptr<const TakenFrame> share(TakenFrame &&frame);
 
   // The frame of that number, of the sensor with the index `sensor`. `next_s`, where it is known, is when the
-  // next frame to be taken begins: what has moved by then is computed meanwhile. Throws Error, interrupted
-  // among others.
+  // next frame to be taken begins: what has moved by then is computed meanwhile. Where the device is lost, it
+  // is set up anew and the frame made again, once in a life. Throws Error, interrupted among others.
   TakenFrame take(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                   std::optional<double> next_s = std::nullopt);
+
+  // Why the device was set up anew; empty: it was not.
+  const std::string &loss() const { return loss_; }
 
   // TakenFrame::normals of a frame that began at that time; none where it has no triangle_id.
   std::vector<glm::vec3> normals_of(const TakenFrame &frame, double time_s);
@@ -160,6 +163,7 @@ private:
   std::shared_ptr<Camera> camera_;
   OtherCameras others_;
   std::optional<View> prepared_;
+  std::string loss_;
   Instants instants_;
   std::mutex spare_mutex_;
   Measurement spare_; // memory of channels, where only some are wanted

@@ -4,6 +4,7 @@
 #include "host/capture/pipeline.h"
 #include "host/capture/progress.h"
 #include "host/input/file/content_hash.h"
+#include "host/output/files/durable.h"
 #include "host/output/sheets/sheets.h"
 #include "host/report/report.h"
 
@@ -20,7 +21,8 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t waiting_bytes = std::size_t{1} << 30;
-constexpr auto time_between_looks = std::chrono::milliseconds(50); // at frames of other processes
+constexpr auto time_between_looks = std::chrono::milliseconds(50);  // at frames of other processes
+constexpr auto time_between_syncs = std::chrono::milliseconds(500); // each takes about 10 ms
 
 // As it will be read from its file, where text that is not UTF-8 is replaced.
 RunIdentity identity_of(const RunHead &run) {
@@ -34,9 +36,10 @@ std::string frames_text(std::uint32_t first, std::uint32_t last) {
 
 } // namespace
 
-std::size_t parts_waiting(std::size_t part_bytes) {
+std::size_t parts_waiting(std::size_t part_bytes, std::uint64_t room) {
   const auto busy = static_cast<std::size_t>(tbb::info::default_concurrency());
-  return std::min(busy, waiting_bytes / std::max(part_bytes, std::size_t{1}));
+  const std::size_t most_bytes = std::min<std::uint64_t>(waiting_bytes, room);
+  return std::min(busy, most_bytes / std::max(part_bytes, std::size_t{1}));
 }
 
 FrameSequence::FrameSequence(const Setup &setup, SequenceRequest request, const RunHead &run)
@@ -72,14 +75,15 @@ Warning FrameSequence::left_warning(const RunFolder::Left &left) const {
                   left.frames, left.frames == 1 ? "" : "s", why, left.frames == 1 ? "stays" : "stay")};
 }
 
-void FrameSequence::write(const Measure &measure, std::size_t part_bytes) {
+void FrameSequence::write(const Measure &measure, std::size_t part_bytes, std::uint64_t room) {
   try {
-    make_all(measure, part_bytes);
+    make_all(measure, parts_waiting(part_bytes, room));
     throw_if_interrupted();
     sheets_ = write_sheets(request_.directory, throw_if_interrupted);
     folder_->write_manifest();
   } catch (const Error &error) {
     files_.clear(); // first, as the disk may be full
+    keep_finished();
     const bool has_manifest = folder_->keep_whole_frames();
     if (made_.count == 0)
       throw;
@@ -88,14 +92,15 @@ void FrameSequence::write(const Measure &measure, std::size_t part_bytes) {
                             has_manifest ? "" : ", without a manifest"));
   } catch (...) {
     files_.clear();
+    keep_finished();
     folder_->keep_whole_frames();
     throw;
   }
 }
 
-void FrameSequence::make_all(const Measure &measure, std::size_t part_bytes) {
+void FrameSequence::make_all(const Measure &measure, std::size_t waiting) {
   while (!to_do_.empty()) {
-    const bool any = make_free_ones(measure, part_bytes);
+    const bool any = make_free_ones(measure, waiting);
     std::erase_if(taken_, [&](std::uint32_t frame) { return folder_->whole(frame).has_value(); });
     to_do_ = std::exchange(taken_, {});
     throw_if_interrupted();
@@ -106,7 +111,7 @@ void FrameSequence::make_all(const Measure &measure, std::size_t part_bytes) {
 
 // Whether there were any. A part, not a frame, goes through the pipeline: frames of several large sensors
 // would not fit side by side.
-bool FrameSequence::make_free_ones(const Measure &measure, std::size_t part_bytes) {
+bool FrameSequence::make_free_ones(const Measure &measure, std::size_t waiting) {
   struct Part {
     SensorFrame at;
     MeasuredPart measured;
@@ -120,7 +125,7 @@ bool FrameSequence::make_free_ones(const Measure &measure, std::size_t part_byte
         any = any || frame;
         return frame.has_value();
       },
-      parts_waiting(part_bytes),
+      waiting,
       [&](std::size_t i) {
         const SensorFrame at = part(*frame, i % sensor_count());
         return Part{at, measure(at)};
@@ -131,6 +136,7 @@ bool FrameSequence::make_free_ones(const Measure &measure, std::size_t part_byte
         return WrittenPart{std::move(part.at), std::move(record), write_files(request_.directory, files)};
       },
       [&](std::size_t, WrittenPart written) { add(std::move(written)); });
+  publish_finished();
   return any;
 }
 
@@ -158,19 +164,46 @@ void FrameSequence::add(WrittenPart part) {
   std::ranges::move(part.files, std::back_inserter(files_));
   parts_.push_back(std::move(part.record));
   if (part.at.sensor + 1 == sensor_count())
-    publish();
+    finish_frame();
 }
 
-void FrameSequence::publish() {
-  OutputSet files(request_.directory);
-  files.add(std::exchange(files_, {}));
-  const std::vector<FrameRecord> parts = std::exchange(parts_, {});
+void FrameSequence::finish_frame() {
   throw_if_interrupted();
-  folder_->publish(files, record_json(folder_->run().hash, parts));
-  const std::uint32_t frame = parts.front().frame;
+  auto frame = std::make_unique<Finished>(request_.directory);
+  frame->files.add(std::exchange(files_, {}));
+  frame->parts = std::exchange(parts_, {});
+  RunFolder::add_record(frame->files, record_json(folder_->run().hash, frame->parts));
+  finished_.push_back(std::move(frame));
+  if (std::chrono::steady_clock::now() - synced_ >= time_between_syncs)
+    publish_finished();
+}
+
+void FrameSequence::publish_finished() {
+  auto finished = std::exchange(finished_, {}); // gone where the disk does not take them
+  if (finished.empty())
+    return;
+  sync_file_system(request_.directory);
+  for (const auto &frame : finished)
+    publish(*frame);
+  sync_names(request_.directory);
+  synced_ = std::chrono::steady_clock::now();
+}
+
+// Where the run ends early; why is told already.
+void FrameSequence::keep_finished() noexcept {
+  try {
+    publish_finished();
+  } catch (const std::exception &) {
+    return;
+  }
+}
+
+void FrameSequence::publish(Finished &finished) {
+  const std::uint32_t frame = finished.parts.front().frame;
+  folder_->publish(finished.files, frame);
   if (made_.count == 0) {
     made_.first = frame;
-    for (const FrameRecord &part : parts)
+    for (const FrameRecord &part : finished.parts)
       for (const NamedFile &file : part.outputs)
         made_.names_of_first.push_back(file.name);
   } else if (frame != made_.last + 1) {

@@ -9,9 +9,11 @@
 #include "host/output/files/output_set.h"
 #include "host/output/run/run_folder.h"
 
+#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,8 +40,9 @@ struct MeasuredPart {
 };
 
 // How many such parts may wait to be written while the next is measured, each of `part_bytes`: as many as
-// keep the processor busy, and no more than fit into 1 GiB; none where a single one does not fit.
-std::size_t parts_waiting(std::size_t part_bytes);
+// keep the processor busy, and no more than fit into 1 GiB and into the `room` that is left for them; none
+// where a single one does not fit.
+std::size_t parts_waiting(std::size_t part_bytes, std::uint64_t room = UINT64_MAX);
 
 // What is asked of a sequence.
 struct SequenceRequest {
@@ -61,9 +64,11 @@ public:
   using Measure = std::function<MeasuredPart(const SensorFrame &)>;
   // Measures those frames that no other process makes, frame by frame, and sensor by sensor in each, one at a
   // time though not always on the same thread, and writes the parts on threads of its own; `part_bytes` is
-  // what the largest part holds. Then waits for the others'. Where any of that fails, Error (interrupted)
-  // among others, whole frames stay with a manifest that lists just these; without any, nothing stays.
-  void write(const Measure &measure, std::size_t part_bytes);
+  // what the largest part holds, and those that wait to be written have `room`. A frame gets its names once
+  // the disk has it, with those of the half second before. Then waits for the others'. Where any of that
+  // fails, Error (interrupted) among others, whole frames stay with a manifest that lists just these; without
+  // any, nothing stays.
+  void write(const Measure &measure, std::size_t part_bytes, std::uint64_t room = UINT64_MAX);
 
   const RunHead &run() const { return run_; }
   // The record of each frame that was asked for, in order, whoever made it. Throws Error (output) where one
@@ -84,6 +89,13 @@ private:
     FrameRecord record;
     WrittenFiles files;
   };
+  // A frame whose files are written and have no names yet.
+  struct Finished {
+    explicit Finished(const std::filesystem::path &directory) : files(directory) {}
+
+    OutputSet files;
+    std::vector<FrameRecord> parts{};
+  };
   // Frames that this process has published.
   struct Made {
     std::uint32_t first = 0, last = 0, count = 0;
@@ -91,13 +103,16 @@ private:
     std::vector<std::string> names_of_first{};
   };
 
-  void make_all(const Measure &measure, std::size_t part_bytes);
-  bool make_free_ones(const Measure &measure, std::size_t part_bytes);
+  void make_all(const Measure &measure, std::size_t waiting);
+  bool make_free_ones(const Measure &measure, std::size_t waiting);
   std::optional<std::uint32_t> claim_next();
   SensorFrame part(std::uint32_t frame, std::size_t sensor) const;
   std::optional<std::uint32_t> next_after(std::uint32_t frame) const;
   void add(WrittenPart part);
-  void publish();
+  void finish_frame();
+  void publish(Finished &frame);
+  void publish_finished();
+  void keep_finished() noexcept;
   Warning left_warning(const RunFolder::Left &left) const;
   std::string whole_text() const;
   std::size_t sensor_count() const { return setup_.start.sensors.size(); }
@@ -108,8 +123,10 @@ private:
   std::optional<RunFolder> folder_;         // once it has begun
   std::deque<std::uint32_t> to_do_, taken_; // by this process, as far as is known; by others
   std::uint32_t to_do_at_start_ = 0;
-  WrittenFiles files_;             // of the frame that is published next, and
-  std::vector<FrameRecord> parts_; // its sensors' records
+  WrittenFiles files_;                             // of the frame that is published next, and
+  std::vector<FrameRecord> parts_;                 // its sensors' records
+  std::deque<std::unique_ptr<Finished>> finished_; // that wait for the disk
+  std::chrono::steady_clock::time_point synced_{};
   Made made_;
   std::vector<std::string> sheets_;
 };

@@ -13,6 +13,8 @@
 namespace pmdsim {
 
 // Installs the handlers of the signals; once, at the start. SIGHUP stays ignored where nohup has made it so.
+// A write to nobody, or beyond the size that a file may have, is an error where it is made, and ends nothing
+// by itself.
 void stop_on_signals();
 
 // Throws Error (interrupted) where a signal has come.

@@ -4,6 +4,7 @@
 #include "host/input/file/input_error.h"
 #include "host/input/file/input_file.h"
 #include "host/input/file/json_file.h"
+#include "host/input/file/memory_request.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -32,6 +33,16 @@ void refuse_doubled_names(const std::vector<SetupDocument> &setups) {
                   fmt::format("{}: expected setups of different names, as they name the folders of "
                               "their frames",
                               setup.file.string()));
+}
+
+// Each variant has its setup's document, as its changes leave it.
+void require_memory_for(std::size_t variants, const std::vector<SetupDocument> &setups,
+                        const std::filesystem::path &file) {
+  constexpr std::size_t tree_bytes = 10; // about, for each byte of text
+  std::size_t bytes = 0;
+  for (const SetupDocument &setup : setups)
+    bytes += tree_bytes * setup.json.dump().size();
+  require_memory(variants * bytes, Place{file}, fmt::format("{} variants of each setup", variants));
 }
 
 // Its errors have the number of the line.
@@ -85,6 +96,8 @@ std::vector<Variant> variants_of(const std::vector<SetupDocument> &setups,
   refuse_doubled_names(setups);
   const std::vector<VariantLine> lines =
       variants ? read_variants(*variants) : std::vector<VariantLine>{{0, json::object()}};
+  if (variants)
+    require_memory_for(lines.size(), setups, *variants);
   std::vector<Variant> all;
   for (const SetupDocument &setup : setups)
     for (std::size_t i = 0; i < lines.size(); ++i) {

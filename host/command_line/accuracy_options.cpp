@@ -11,10 +11,6 @@
 namespace pmdsim {
 namespace {
 
-const std::map<std::string, Mode> mode_names{
-    {"exact", Mode::exact}, {"reduced", Mode::reduced}, {"auto", Mode::automatic}};
-const std::map<std::string, Precision> precision_names{{"fp32", Precision::fp32}, {"fp64", Precision::fp64}};
-
 [[noreturn]] void refuse(const std::string &message) { throw Error(ExitCode::usage, message); }
 
 double max_error_of(const std::string &text) {
@@ -74,15 +70,19 @@ void add_accuracy(CLI::App &command, WrittenAccuracy &written) {
 }
 
 Accuracy accuracy_of(const WrittenAccuracy &written, bool on_reference) {
+  static const std::map<std::string, Mode> modes{
+      {"exact", Mode::exact}, {"reduced", Mode::reduced}, {"auto", Mode::automatic}};
+  static const std::map<std::string, Precision> precisions{{"fp32", Precision::fp32},
+                                                           {"fp64", Precision::fp64}};
   Accuracy accuracy;
   if (written.max_error)
     accuracy.max_error_m = max_error_of(*written.max_error);
   if (written.max_amplitude_error)
     accuracy.max_amplitude_error = max_amplitude_error_of(*written.max_amplitude_error);
   if (written.precision)
-    accuracy.precision = precision_names.at(*written.precision);
+    accuracy.precision = precisions.at(*written.precision);
   if (written.mode)
-    accuracy.mode = mode_names.at(*written.mode);
+    accuracy.mode = modes.at(*written.mode);
   else if (written.max_error || written.max_amplitude_error)
     accuracy.mode = Mode::automatic;
   accuracy.strict = written.strict;

@@ -14,6 +14,7 @@ namespace {
 
 void add_setup(CLI::App &command, Written &written, Setups setups = Setups::one) {
   add_setups(command, written.setups, setups);
+  add_max_memory(command, written.max_memory);
 }
 
 void add_samples(CLI::App &command, Written &written) {

@@ -4,6 +4,7 @@
 #include "host/command_line/accuracy_options.h"
 #include "host/command_line/correct_options.h"
 #include "host/command_line/diodes_options.h"
+#include "host/command_line/memory_options.h"
 #include "host/command_line/options.h"
 #include "host/command_line/report_options.h"
 #include "host/command_line/setup_options.h"
@@ -28,7 +29,7 @@ struct Written {
   WrittenReporting reporting;
   WrittenCorrect correct;
   WrittenDiodes diodes;
-  std::optional<std::string> samples, frames, shard, paths, suite_name;
+  std::optional<std::string> samples, frames, shard, paths, suite_name, max_memory;
   SuiteOptions suite;
   WrittenNew fresh;
   std::vector<std::string> formats, channels;

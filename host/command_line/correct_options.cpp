@@ -16,12 +16,6 @@ namespace {
 
 constexpr std::uint32_t most_fit_pixels = 16;
 
-const std::map<std::string, Quantity> quantity_names{
-    {"distance", Quantity::distance}, {"phase", Quantity::phase}, {"depth", Quantity::depth}};
-// Metres or radians of 1.
-const std::map<std::string, double> length_units{{"m", 1.0}, {"mm", 1e-3}};
-const std::map<std::string, double> angle_units{{"rad", 1.0}, {"turns", 2.0 * std::numbers::pi}};
-
 double length_of(const char *option, const std::string &text) {
   if (const auto length = length_m(text))
     return *length;
@@ -32,12 +26,14 @@ double length_of(const char *option, const std::string &text) {
 
 // Of a kind that people ask for, where it is none of an image to correct.
 void take_quantity(const std::string &quantity, ImageRequest &image) {
-  if (const auto named = quantity_names.find(quantity); named != quantity_names.end()) {
+  static const std::map<std::string, Quantity> quantities{
+      {"distance", Quantity::distance}, {"phase", Quantity::phase}, {"depth", Quantity::depth}};
+  if (const auto named = quantities.find(quantity); named != quantities.end()) {
     image.quantity = named->second;
     return;
   }
   std::vector<std::string> names;
-  for (const auto &named : quantity_names)
+  for (const auto &named : quantities)
     names.push_back(named.first);
   throw Error(ExitCode::usage,
               fmt::format("--quantity: expected distance, phase or depth, found {}{}", in_quotes(quantity),
@@ -48,9 +44,12 @@ void take_quantity(const std::string &quantity, ImageRequest &image) {
 
 // A unit says whether the image holds angles or lengths, unless that is said already.
 void take_unit(const std::string &unit, ImageRequest &image) {
-  const bool is_angle = angle_units.contains(unit);
-  const auto named = length_units.find(unit);
-  const std::optional<double> length = named != length_units.end() ? named->second : length_m(unit);
+  // Metres or radians of 1.
+  static const std::map<std::string, double> lengths{{"m", 1.0}, {"mm", 1e-3}},
+      angles{{"rad", 1.0}, {"turns", 2.0 * std::numbers::pi}};
+  const bool is_angle = angles.contains(unit);
+  const auto named = lengths.find(unit);
+  const std::optional<double> length = named != lengths.end() ? named->second : length_m(unit);
   if (!is_angle && !length)
     throw Error(ExitCode::usage,
                 fmt::format("--unit: expected m, mm, a length such as 0.1mm, rad or turns, found {}",
@@ -61,7 +60,7 @@ void take_unit(const std::string &unit, ImageRequest &image) {
                             is_angle ? "m or mm, for a distance or depth" : "rad or turns, for a phase"));
   if (is_angle)
     image.quantity = Quantity::phase;
-  image.unit = is_angle ? angle_units.at(unit) : *length;
+  image.unit = is_angle ? angles.at(unit) : *length;
 }
 
 // A length in place of an image is for another option.

@@ -140,6 +140,8 @@ void take_setups(const WrittenSetups &written, Options &options) {
   options.capture.changes = changes_of(written.changes);
   if (written.poses)
     options.capture.poses = poses_of(*written.poses);
+  if (written.allow_outside)
+    options.capture.scene_files = UriFiles::anywhere;
 }
 
 void take_reporting(const WrittenReporting &written, Options &options) {
@@ -161,6 +163,7 @@ Options checked(Written written, const std::string &command) {
   options.command = command;
   take_setups(written.setups, options);
   check_importing(options);
+  options.max_memory = max_memory_of(written.max_memory);
   options.correct = correct_options_of(written.correct);
   check_comparing(written);
   capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));
@@ -237,7 +240,7 @@ std::string manual_of(const CommandTable &table, const std::vector<std::string> 
 
 std::optional<Options> parse_options(int argument_count, const char *const *arguments) {
   if (argument_count <= 1) {
-    fmt::print("{}", first_steps());
+    std::fputs(first_steps().c_str(), stdout);
     return std::nullopt;
   }
   CLI::App app(
@@ -263,7 +266,7 @@ std::optional<Options> parse_options(int argument_count, const char *const *argu
   if (!manual.empty()) {
     CommandTable table = table_of(app);
     add_suggestions(table);
-    fmt::print("{}", manual_of(table, manual));
+    std::fputs(manual_of(table, manual).c_str(), stdout);
     return std::nullopt;
   }
   return checked(written, app.get_subcommands().front()->get_name());

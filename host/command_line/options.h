@@ -48,6 +48,7 @@ struct Options {
   std::optional<NewSetup> fresh;             // new
   ExplainRequest explain;                    // explain
   std::filesystem::path schema_file;         // schema; empty: stdout
+  std::optional<std::uint64_t> max_memory;   // bytes
   bool json = false;
 };
 

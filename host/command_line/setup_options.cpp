@@ -28,6 +28,8 @@ void add_setups(CLI::App &command, WrittenSetups &written, Setups setups) {
       "--poses", written.poses,
       "[NAME=]FILE, the sensor, illuminator or node NAME, or the first sensor, moves along the poses of "
       "a file (TUM, CSV or ROS), with a frame at each");
+  command.add_flag(allow_outside_option, written.allow_outside,
+                   "files that the scene names may lie outside of its folder: for scenes that you trust");
   if (setups == Setups::several)
     command.add_option("--variants", written.variants,
                        "file of JSON Lines: for each line a variant with the changes {\"PATH\": VALUE, ...}");

@@ -21,6 +21,7 @@ struct WrittenSetups {
   std::vector<std::string> changes; // PATH=VALUE
   std::optional<std::string> poses; // [NAME=]FILE
   std::optional<std::filesystem::path> variants;
+  bool allow_outside = false;
 };
 
 // Whether a command takes one setup, or several, with variants.

@@ -3,6 +3,7 @@
 #include "engine/model/error.h"
 #include "host/input/words/near_name.h"
 #include "host/input/words/quotes.h"
+#include "host/input/words/utf8.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <optional>
-#include <regex>
 
 namespace pmdsim {
 namespace {
@@ -122,22 +122,28 @@ std::string unexpected(const CLI::App &app, const CLI::App &command, const std::
                : fmt::format("{} has no option {}", name, option);
 }
 
-// "--mode: fast not in {exact,reduced,auto}", as CLI11 says it.
+// "--mode: fast not in {exact,reduced,auto}", as CLI11 says it. Here and below std::regex would recurse over
+// a long value until the stack ends.
 std::string wrong_choice(const std::string &text) {
-  static const std::regex form(R"((--[a-z-]+): (.*) not in \{(.*)\})");
-  std::smatch parts;
-  if (!std::regex_match(text, parts, form))
+  constexpr std::string_view before_value = ": ", before_choices = " not in {";
+  const std::size_t option_end = text.find(before_value), value_end = text.rfind(before_choices);
+  if (!text.starts_with("--") || !text.ends_with('}') || option_end == text.npos || value_end == text.npos ||
+      value_end < option_end + before_value.size())
     return text;
+  const std::size_t value_begin = option_end + before_value.size();
+  const std::string option = text.substr(0, option_end),
+                    value = text.substr(value_begin, value_end - value_begin);
   Names choices;
-  std::string rest = parts[3].str();
+  std::string rest = text.substr(value_end + before_choices.size());
+  rest.pop_back();
   for (std::size_t end = 0; end != std::string::npos; rest.erase(0, end + 1)) {
     end = rest.find(',');
     choices.push_back(rest.substr(0, end));
     if (end == std::string::npos)
       break;
   }
-  return fmt::format("{}: expected {}, found {}{}", parts[1].str(), fmt::join(choices, ", "),
-                     in_quotes(parts[2].str()), did_you_mean(parts[2].str(), choices));
+  return fmt::format("{}: expected {}, found {}{}", option, fmt::join(choices, ", "), in_quotes(value),
+                     did_you_mean(value, choices));
 }
 
 // What is missing: an operand, or the value behind an option.
@@ -154,11 +160,13 @@ std::string missing(const CLI::App &command, const std::string &text, const Name
 
 // "Could not convert: --triangles = many", as CLI11 says it.
 std::string wrong_number(const std::string &text) {
-  static const std::regex form(R"(Could not convert: (--[a-z-]+) = (.*))");
-  std::smatch parts;
-  return std::regex_match(text, parts, form)
-             ? fmt::format("{}: expected a number, found {}", parts[1].str(), in_quotes(parts[2].str()))
-             : text;
+  constexpr std::string_view before_option = "Could not convert: ", before_value = " = ";
+  const std::size_t option_end = text.find(before_value);
+  if (!text.starts_with(before_option) || option_end == text.npos)
+    return text;
+  return fmt::format("{}: expected a number, found {}",
+                     text.substr(before_option.size(), option_end - before_option.size()),
+                     in_quotes(text.substr(option_end + before_value.size())));
 }
 
 // A flag that was given a value.
@@ -210,19 +218,19 @@ void refuse_misread(const CLI::App &app, const Names &arguments) {
   for (const std::string &argument : arguments) {
     if (has_long_dash(argument))
       throw Error(ExitCode::usage,
-                  fmt::format("expected two short dashes before an option, found {}", argument));
+                  fmt::format("expected two short dashes before an option, found {}", in_one_line(argument)));
     const std::string doubled = "-" + option_name(argument);
     if (argument.size() > 2 && argument.front() == '-' && argument[1] != '-' &&
         !commands_with(app, doubled).empty())
-      throw Error(ExitCode::usage,
-                  fmt::format("unknown option {}, did you mean {}?", option_name(argument), doubled));
+      throw Error(ExitCode::usage, in_one_line(fmt::format("unknown option {}, did you mean {}?",
+                                                           option_name(argument), doubled)));
   }
 }
 
 std::string usage_problem(const CLI::App &app, const CLI::ParseError &error, const Names &arguments) {
   const std::string command =
       app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ";
-  return fmt::format("{} (see pmdsim {}--help)", problem_of(app, error, arguments), command);
+  return in_one_line(fmt::format("{} (see pmdsim {}--help)", problem_of(app, error, arguments), command));
 }
 
 } // namespace pmdsim

@@ -2,6 +2,8 @@
 #include "engine/simulator.h"
 #include "host/capture/capture.h"
 #include "host/commands/commands.h"
+#include "host/memory/byte_count.h"
+#include "host/memory/machine_memory.h"
 #include "host/output/files/manifest.h"
 #include "host/report/findings.h"
 #include "host/report/frame_findings.h"
@@ -90,6 +92,38 @@ ordered_json bounces_json(const Setup &setup, const std::optional<BouncesForecas
   return json;
 }
 
+// Of a frame of each sensor as `render` measures it, with what the setup has taken.
+struct MemoryFindings {
+  std::uint64_t of_setup;
+  MemoryForecast of_frame; // the largest
+};
+
+MemoryFindings memory_of(const Setup &setup) {
+  MemoryFindings findings{taken_memory(), {}};
+  for (const Sensor &sensor : setup.start.sensors) {
+    MemoryForecast forecast = forecast_of(setup, sensor, {.taps = true}, MeasuredBy::device_in_host,
+                                          bytes_of_largest_frame(setup, true));
+    if (forecast.bytes() > findings.of_frame.bytes())
+      findings.of_frame = std::move(forecast);
+  }
+  return findings;
+}
+
+ordered_json memory_json(const MemoryFindings &findings) {
+  ordered_json parts = ordered_json::array();
+  for (const MemoryPart &part : findings.of_frame.parts)
+    parts.push_back({{"what", part.what}, {"bytes", part.bytes}});
+  return {{"bytes", findings.of_setup + findings.of_frame.bytes()},
+          {"setup_bytes", findings.of_setup},
+          {"frame", parts}};
+}
+
+std::string memory_text(const MemoryFindings &findings) {
+  return fmt::format("about {}: {} for the setup, the rest for {}",
+                     byte_text(findings.of_setup + findings.of_frame.bytes()), byte_text(findings.of_setup),
+                     memory_text(findings.of_frame));
+}
+
 // That nothing is seen comes first: all else is in vain then.
 std::vector<Warning> all_warnings(const Setup &setup, const Findings &findings) {
   std::vector<Warning> warnings = setup.warnings;
@@ -100,7 +134,7 @@ std::vector<Warning> all_warnings(const Setup &setup, const Findings &findings) 
 }
 
 // The keys of the first sensor (and its first frequency) stand at the top too.
-ordered_json report_json(const Setup &setup, const Findings &findings) {
+ordered_json report_json(const Setup &setup, const Findings &findings, const MemoryFindings &memory) {
   const ordered_json sensors = array_of(findings.sensors, sensor_json);
   ordered_json report{{"triangles", setup.start.scene.triangles.size()},
                       {"points", setup.start.scene.discs.size()},
@@ -111,6 +145,7 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
   report.update(bounces_json(setup, forecast_of(setup)));
   report["frames"] = frames_json(setup.frames);
   report["moves"] = setup.motion != nullptr;
+  report["memory"] = memory_json(memory);
   report["ambiguity_m"] = sensors[0]["ambiguity_m"][0];
   for (const char *key :
        {"image_distance_m", "field_of_view_deg", "pixel_footprint_at_1m_m", "visible_range_m"})
@@ -245,7 +280,7 @@ std::string objects_text(const std::vector<std::string> &objects) {
   return text + (objects.size() > most ? ", ... (--json has all)" : "");
 }
 
-std::string report_text(const Setup &setup, const Findings &findings) {
+std::string report_text(const Setup &setup, const Findings &findings, const MemoryFindings &memory) {
   const Scene &scene = setup.start.scene;
   std::string text = fmt::format("{} is valid\n\n", setup.file.string()) +
                      line("triangles", fmt::format("{}", scene.triangles.size()));
@@ -256,7 +291,8 @@ std::string report_text(const Setup &setup, const Findings &findings) {
           line("shadows", shadows_text(setup.shadows, findings.shadow_casters)) +
           line("bounces", bounces_text(setup)) + line("frames", frames_text(setup.frames)) +
           line("motion", setup.motion ? "the scene moves; what is visible is told of the first frame"
-                                      : "nothing moves");
+                                      : "nothing moves") +
+          line("memory", memory_text(memory));
   for (std::size_t i = 0; i < findings.sensors.size(); ++i)
     text += sensor_text(findings.sensors[i], setup.cameras.at(i));
   return text;
@@ -267,13 +303,15 @@ std::string report_text(const Setup &setup, const Findings &findings) {
 void run_check(const Options &options) {
   SetupLoader loader; // whose warnings are told in one list with those of the findings
   const Setup setup = loader.load(requested_document(options.capture, options.capture.setup));
+  const MemoryFindings memory = memory_of(setup); // first, as findings take some, too
   const Findings findings = findings_of(setup);
   const std::vector<Warning> warnings = all_warnings(setup, findings);
   if (options.capture.accuracy.strict)
     refuse_warnings(warnings);
   for (const Warning &warning : warnings)
     warn(warning);
-  print(options.json ? json_text(report_json(setup, findings)) : report_text(setup, findings));
+  print(options.json ? json_text(report_json(setup, findings, memory))
+                     : report_text(setup, findings, memory));
 }
 
 } // namespace pmdsim

@@ -9,6 +9,7 @@
 #include "host/correction/measured_file.h"
 #include "host/input/file/files_read.h"
 #include "host/input/file/input_file.h"
+#include "host/memory/memory_limit.h"
 #include "host/output/files/manifest.h"
 #include "host/output/files/output_set.h"
 #include "host/output/run/frame_records.h"
@@ -74,6 +75,8 @@ TruthFile truth_of(const Scenery &scenery, const std::function<void(double)> &pr
                           Backscatter::constant, {}, progress);
   return {frame.range_m};
 }
+
+constexpr std::uint64_t bytes_of_corrected_pixel = 300; // of all that is made of it, until it is written
 
 // A run of another command is not to lose its manifest, nor its frames of the same names.
 void refuse_other_run(const std::filesystem::path &directory) {
@@ -208,6 +211,9 @@ void run_correct(const Options &options) {
   require_names_for_files(setup.start.sensors);
   const Scenery scenery = scenery_of(setup, wanted);
   const MeasuredFile measured = measured_of(wanted, scenery, setup);
+  ask_for_memory(scenery.camera().pixel_count() * bytes_of_corrected_pixel,
+                 fmt::format("the correction of {} pixels", scenery.camera().pixel_count()),
+                 "take a sensor of fewer pixels");
   refuse_other_run(options.capture.output_directory);
   OutputSet files(options.capture.output_directory); // first, so that nothing is computed in vain
   const std::string true_ranges = wanted_truth(wanted, measured, scenery, setup);

@@ -1,6 +1,7 @@
 #include "engine/model/warning.h"
 #include "host/capture/capture.h"
 #include "host/commands/commands.h"
+#include "host/memory/memory_limit.h"
 #include "host/output/files/manifest.h"
 #include "host/output/files/output_set.h"
 #include "host/output/pictures/plots.h"
@@ -9,6 +10,7 @@
 #include "host/report/report.h"
 #include "host/tolerance/diode_study.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -71,6 +73,21 @@ std::vector<std::string> write_files(OutputSet &files, const Setup &setup, const
   return files.paths();
 }
 
+// What is found of each pixel and diode, and of each board at the pixels that boards are looked at.
+void ask_for_study(const Setup &setup, const DiodeRequest &request) {
+  constexpr std::uint64_t bytes_of_pixel = 400, bytes_of_diode = 2000, most_pixels_of_boards = 200;
+  std::uint64_t diodes = 0;
+  for (const Illuminator &illuminator : setup.start.illuminators)
+    diodes += illuminator.diodes.size();
+  const std::uint64_t pixels = std::uint64_t{request.pixels} * request.pixels;
+  const std::uint64_t of_boards =
+      std::min<std::uint64_t>(pixels, most_pixels_of_boards) * request.boards * 2 * sizeof(double);
+  ask_for_memory(pixels * (bytes_of_pixel + diodes / 4) + diodes * bytes_of_diode + of_boards,
+                 fmt::format("a study of {} diodes, {} boards and {} x {} pixels", diodes, request.boards,
+                             request.pixels, request.pixels),
+                 "take fewer --boards or --pixels");
+}
+
 } // namespace
 
 void run_diodes(const Options &options) {
@@ -79,6 +96,7 @@ void run_diodes(const Options &options) {
     warn(
         {std::string(warning_code("bounces-left-out")), setup.file.string() + ": /bounces",
          "light that bounces is left out, as errors of diodes are studied by the light that comes directly"});
+  ask_for_study(setup, options.diodes);
   OutputSet files(options.capture.output_directory); // first, so that nothing is studied in vain
   const DiodeStudy study = studied(setup, options.diodes);
   const std::vector<std::string> paths = write_files(files, setup, study);

@@ -19,15 +19,14 @@ void run_import_calibration(const Options &options) {
           ? ""
           : fmt::format("the pixel pitch is assumed to be {} m (--pixel-pitch-m changes it), ",
                         pixel_pitch_m);
-  fmt::print(stderr, "pmdsim: note: {}modulation_hz is assumed to be {:g}; no calibration file has it\n",
-             pitch, sensor.modulation_hz.front());
+  tell(fmt::format("note: {}modulation_hz is assumed to be {:g}; no calibration file has it", pitch,
+                   sensor.modulation_hz.front()));
   if (calibration.cameras.size() > 1 && options.calibrated_camera.empty())
-    fmt::print(stderr, "pmdsim: note: the file has the cameras {}, this is {} (--camera takes another)\n",
-               fmt::join(calibration.cameras, ", "), calibration.cameras.front());
+    tell(fmt::format("note: the file has the cameras {}, this is {} (--camera takes another)",
+                     fmt::join(calibration.cameras, ", "), calibration.cameras.front()));
   if (sensor.dark_beyond_fold)
-    fmt::print(stderr,
-               "pmdsim: note: the distortion folds over inside the image, whose pixels beyond see nothing "
-               "(\"beyond\": \"dark\")\n");
+    tell("note: the distortion folds over inside the image, whose pixels beyond see nothing "
+         "(\"beyond\": \"dark\")");
   nlohmann::ordered_json block = sensor_block(sensor);
   if (calibration.first_from_camera != Pose())
     block["pose"] = pose_block(calibration.first_from_camera);

@@ -5,6 +5,7 @@
 #include "host/commands/report_of_run.h"
 #include "host/input/file/content_hash.h"
 #include "host/output/files/manifest.h"
+#include "host/output/files/output_directory.h"
 #include "host/output/run/run_folder.h"
 #include "host/report/report.h"
 
@@ -131,6 +132,7 @@ private:
     const Variant &variant = study_.own[i];
     CaptureRequest request = options_.capture;
     request.shard = {};
+    refuse_linked_folders(folder_.path(), variant.name);
     request.output_directory = folder_.path() / variant.name;
     request.part = {i, study_.own.size(), clock_};
     Capture capture(request, requested_setup(request, variant.document, loader_), "render", true,

@@ -11,6 +11,7 @@ void run_schema(const Options &options) {
     return print(std::string(setup_schema_text));
   OutputFile file(options.schema_file);
   file.write(setup_schema_text);
+  file.sync();
   file.close();
   file.publish();
   if (options.json)

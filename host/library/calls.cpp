@@ -1,6 +1,8 @@
 #include "host/library/calls.h"
 
+#include "host/input/words/utf8.h"
 #include "host/library/handles.h"
+#include "host/report/failure.h"
 
 #include <algorithm>
 #include <atomic>
@@ -22,7 +24,7 @@ thread_local std::string text_of_thread;
 
 pmdsim_status keep(pmdsim_status status, const char *message, const Whereabouts &where = {}) noexcept {
   try {
-    last_error = {message, where.file, where.place};
+    last_error = {in_one_line(message), in_one_line(where.file), in_one_line(where.place)};
   } catch (const std::bad_alloc &) { // the status says enough
     last_error = {};
   }
@@ -72,10 +74,8 @@ pmdsim_status handled_exception() noexcept {
     return keep(refusal.status, refusal.message.c_str());
   } catch (const Error &error) {
     return keep(error);
-  } catch (const std::bad_alloc &) {
-    return keep(PMDSIM_OUT_OF_MEMORY, "out of memory");
   } catch (const std::exception &error) {
-    return keep(PMDSIM_INTERNAL, error.what());
+    return keep(static_cast<pmdsim_status>(exit_code_of(error)), message_of(error));
   } catch (...) {
     return keep(PMDSIM_INTERNAL, "an exception of an unknown kind");
   }

@@ -22,7 +22,8 @@ struct SimulatorObject {
   std::mutex in_call; // by the call that it serves
   std::atomic<bool> cancelled{false};
   Session session;
-  std::string description; // as pmdsim_simulator_describe() returned it last
+  UriFiles scene_files = UriFiles::beside; // of setups that are loaded
+  std::string description;                 // as pmdsim_simulator_describe() returned it last
 };
 
 // A frame: its channels' names and units live as long as it does.

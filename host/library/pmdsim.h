@@ -203,6 +203,10 @@ PMDSIM_API pmdsim_status pmdsim_frame_directions(const pmdsim_frame *frame, doub
 PMDSIM_API pmdsim_status pmdsim_report(const char *directory, const char *file, double max_mib,
                                        const char **json);
 
+/* Whether files that a scene names, its buffers and images, may lie outside of the scene's folder: 0, as at
+ * first, or 1, for scenes that are trusted. Of setups that are loaded from here on. */
+PMDSIM_API pmdsim_status pmdsim_simulator_allow_outside(pmdsim_simulator *simulator, int allowed);
+
 #ifdef __cplusplus
 }
 #endif

@@ -127,6 +127,7 @@ public:
     return *this;
   }
 
+  void allow_outside(bool allowed) { check(pmdsim_simulator_allow_outside(handle_, allowed ? 1 : 0)); }
   void load(const std::string &file) { check(pmdsim_simulator_load(handle_, file.c_str())); }
   void load_text(const std::string &text, const std::string &directory = "") {
     check(pmdsim_simulator_load_text(handle_, text.data(), text.size(), directory.c_str()));

@@ -7,23 +7,25 @@
 #include "host/library/objects.h"
 #include "host/output/files/manifest.h"
 
+#include <fmt/format.h>
 #include <string_view>
 
 namespace pmdsim::library {
 namespace {
 
 // Relative paths stay as they are, whatever the process's directory is later.
-SetupDocument settled(SetupDocument document) {
+SetupDocument settled(SetupDocument document, const SimulatorObject &simulator) {
+  document.scene_files = simulator.scene_files;
   std::error_code error;
   if (const auto current = std::filesystem::current_path(error); !error)
     document.folder = current / document.folder;
   return document;
 }
 
-SetupDocument document_of(std::string_view text, const char *directory) {
+SetupDocument document_of(std::string_view text, const char *directory, const SimulatorObject &simulator) {
   SetupDocument document = parse_setup_document(text, setup_text);
   document.folder = directory ? directory : "";
-  return settled(std::move(document));
+  return settled(std::move(document), simulator);
 }
 
 std::string_view text_of(const char *text, std::size_t length) { return {&required(text, "text"), length}; }
@@ -79,13 +81,18 @@ pmdsim_status pmdsim_simulator_destroy(pmdsim_simulator *simulator) {
 }
 
 pmdsim_status pmdsim_simulator_load(pmdsim_simulator *simulator, const char *file) {
-  return guarded(
-      [&] { InCall(simulator)->session.load(settled(read_setup_document(&required(file, "file")))); });
+  return guarded([&] {
+    const InCall in(simulator);
+    in->session.load(settled(read_setup_document(&required(file, "file")), *in));
+  });
 }
 
 pmdsim_status pmdsim_simulator_load_text(pmdsim_simulator *simulator, const char *text, size_t length,
                                          const char *directory) {
-  return guarded([&] { InCall(simulator)->session.load(document_of(text_of(text, length), directory)); });
+  return guarded([&] {
+    const InCall in(simulator);
+    in->session.load(document_of(text_of(text, length), directory, *in));
+  });
 }
 
 pmdsim_status pmdsim_simulator_load_mesh(pmdsim_simulator *simulator, const char *text, size_t length,
@@ -93,7 +100,7 @@ pmdsim_status pmdsim_simulator_load_mesh(pmdsim_simulator *simulator, const char
   return guarded([&] {
     const InCall in(simulator);
     const auto scene = std::make_shared<const Scene>(scene_of(struct_of(mesh, sizeof(pmdsim_mesh), "mesh")));
-    in->session.load(document_of(text_of(text, length), directory), scene);
+    in->session.load(document_of(text_of(text, length), directory, *in), scene);
   });
 }
 
@@ -121,5 +128,14 @@ pmdsim_status pmdsim_simulator_cancel(pmdsim_simulator *simulator) {
     if (!object)
       throw bad_handle("simulator");
     object->cancelled = true;
+  });
+}
+
+pmdsim_status pmdsim_simulator_allow_outside(pmdsim_simulator *simulator, int allowed) {
+  return guarded([&] {
+    const InCall in(simulator);
+    if (allowed != 0 && allowed != 1)
+      throw bad_argument(fmt::format("allowed: expected 0 or 1, found {}", allowed));
+    in->scene_files = allowed == 1 ? UriFiles::anywhere : UriFiles::beside;
   });
 }

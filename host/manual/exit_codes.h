@@ -12,7 +12,7 @@ struct ExitCodeRow {
   std::string_view remedy; // what to do then, in whole sentences; empty where there is nothing to do
 };
 
-inline constexpr std::array<ExitCodeRow, 10> exit_code_rows{
+inline constexpr std::array<ExitCodeRow, 11> exit_code_rows{
     {{0, "done", ""},
      {1, "internal error",
       "The program has a mistake. Please report it with the command line, the setup and the message."},
@@ -26,14 +26,18 @@ inline constexpr std::array<ExitCodeRow, 10> exit_code_rows{
       "--device reference needs no Vulkan at all and is slow."},
      {5, "out of memory", "Fewer pixels, samples, diodes or triangles take less, as do fewer --channels."},
      {6, "the device was lost",
-      "The driver gave up: its log says why. Frames that were whole stay, and --resume goes on."},
+      "The driver gave up, and gave up again after the device was set up anew: its log says why. Frames that "
+      "were "
+      "whole stay, and --resume goes on."},
      {7, "an output cannot be written",
       "The message names the path and the operating system's reason. Nothing half-written is left."},
      {8, "the accuracy asked for cannot be reached",
       "Ask for less by a larger --max-error, take --precision fp64 or --mode exact, or leave out --strict: "
       "then "
       "the channel error_bound_m tells which pixels are off by more."},
-     {130, "interrupted",
-      "By SIGINT, SIGTERM or SIGHUP. Frames that were whole stay, and --resume goes on."}}};
+     {130, "interrupted", "By SIGINT, SIGTERM or SIGHUP. Frames that were whole stay, and --resume goes on."},
+     {141, "nobody reads standard output any more",
+      "As after `pmdsim explain | head -1`; nothing is said. Files that the command was to write are "
+      "whole."}}};
 
 } // namespace pmdsim

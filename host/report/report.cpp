@@ -47,9 +47,10 @@ std::string bounds_text(const std::optional<double> &distance_m, const std::opti
 
 void print(const std::string &text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!written || std::fflush(stdout) != 0)
-    throw Error(ExitCode::output, fmt::format("standard output: cannot be written: {}",
-                                              std::generic_category().message(errno)));
+  if (!written || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Error(
+        errno == EPIPE ? nobody_reads : ExitCode::output,
+        fmt::format("standard output: cannot be written: {}", std::generic_category().message(errno)));
 }
 
 std::string frequency_text(double modulation_hz) { return fmt::format("{:.10g} MHz", modulation_hz / 1e6); }
@@ -59,8 +60,10 @@ void warn(const Warning &warning) {
   static std::mutex mutex;
   const std::scoped_lock lock(mutex);
   if (told.insert(warning.code + '\n' + warning.place + '\n' + warning.text).second)
-    fmt::print(stderr, "pmdsim: warning: {}: {} [{}]\n", warning.place, warning.text, warning.code);
+    tell(fmt::format("warning: {}: {} [{}]", warning.place, warning.text, warning.code));
 }
+
+void tell(const std::string &text) { std::fputs(fmt::format("pmdsim: {}\n", text).c_str(), stderr); }
 
 std::string place_of(const Sensor &sensor) { return "sensor " + sensor.name; }
 

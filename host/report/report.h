@@ -2,6 +2,7 @@
 // The text that commands print on stdout.
 
 #include "engine/model/accuracy.h"
+#include "engine/model/error.h"
 #include "engine/model/measurement.h"
 #include "engine/model/sensor.h"
 #include "engine/model/warning.h"
@@ -12,11 +13,18 @@
 
 namespace pmdsim {
 
-// Prints the text as it is, at once. Throws Error (output) where stdout cannot take it.
+// The program's exit code where nobody reads stdout any more, as a shell has it for SIGPIPE; nothing is said
+// then.
+inline constexpr ExitCode nobody_reads{141};
+
+// Prints the text as it is, at once. Throws Error where stdout cannot take it: output or nobody_reads.
 void print(const std::string &text);
 
 // One line on stderr, "pmdsim: warning: PLACE: TEXT [CODE]", once in a process.
 void warn(const Warning &warning);
+
+// One line on stderr, "pmdsim: TEXT". That nobody reads it is no error.
+void tell(const std::string &text);
 
 // A sensor as a warning's place, "sensor NAME".
 std::string place_of(const Sensor &sensor);

@@ -131,8 +131,10 @@ TEST_CASE("no room has more files than one can look over") {
   std::map<std::string, std::size_t> files;
   for (const char *folder : {"engine", "host", "shaders", "scenes", "tests"})
     for (const auto &entry : fs::recursive_directory_iterator(root / folder))
-      if (entry.is_regular_file())
-        ++files[fs::relative(entry.path().parent_path(), root)];
+      if (const std::string room = fs::relative(entry.path().parent_path(), root);
+          entry.is_regular_file() &&
+          !room.starts_with("tests/fuzz/corpus/")) // fuzzers' inputs are read by nobody
+        ++files[room];
   for (const auto &[folder, count] : files) {
     INFO(folder << " has " << count << " files");
     CHECK(count <= largest_room);

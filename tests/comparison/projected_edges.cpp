@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pmdsim::test {
 
@@ -29,8 +30,8 @@ double pixel_angle_rad(const reference::LensModel &lens, const Sensor &sensor, c
     const bool has_next = glm::all(glm::lessThan(sample + step, sensor.resolution * sensor.samples));
     if (!has_next && glm::any(glm::lessThan(sample, step)))
       continue;
-    const auto next = lens.sample_ray(has_next ? sample + step : sample - step);
-    smallest_rad = std::min(smallest_rad, angle_rad(*lens.sample_ray(sample), *next));
+    if (const auto next = lens.sample_ray(has_next ? sample + step : sample - step))
+      smallest_rad = std::min(smallest_rad, angle_rad(*lens.sample_ray(sample), *next));
   }
   return smallest_rad;
 }
@@ -39,10 +40,12 @@ double pixel_angle_rad(const reference::LensModel &lens, const Sensor &sensor, c
 
 double pixels_to_edge(const reference::LensModel &lens, const Sensor &sensor, const glm::uvec2 &sample,
                       const reference::CameraTriangle &triangle) {
-  const glm::dvec3 ray = *lens.sample_ray(sample);
+  const auto ray = lens.sample_ray(sample);
+  if (!ray)
+    return std::numeric_limits<double>::infinity();
   const auto &[a, b, c] = triangle.corners_m;
   const double nearest_rad =
-      std::min({angle_to_edge_rad(ray, a, b), angle_to_edge_rad(ray, b, c), angle_to_edge_rad(ray, c, a)});
+      std::min({angle_to_edge_rad(*ray, a, b), angle_to_edge_rad(*ray, b, c), angle_to_edge_rad(*ray, c, a)});
   return nearest_rad / pixel_angle_rad(lens, sensor, sample);
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("Philox gives its known answers in C++ and in the judge") {
 }
 
 TEST_CASE("Philox gives its known answers in GLSL on every device") {
-  const vulkan::Instance instance(false);
+  const vulkan::Instance instance(Validation::none);
   int devices = 0;
   for (auto &physical : instance.devices()) {
     if (!vulkan::what_is_lacking(physical).empty())

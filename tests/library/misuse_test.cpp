@@ -50,6 +50,15 @@ bool tells(const std::string &part) {
 
 } // namespace
 
+TEST_CASE("Files outside of the scene's folder are allowed or not") {
+  const Loaded loaded;
+  CHECK(pmdsim_simulator_allow_outside(loaded.simulator, 1) == PMDSIM_OK);
+  CHECK(pmdsim_simulator_allow_outside(loaded.simulator, 0) == PMDSIM_OK);
+  CHECK(pmdsim_simulator_allow_outside(loaded.simulator, 2) == PMDSIM_BAD_ARGUMENT);
+  CHECK(tells("allowed: expected 0 or 1, found 2"));
+  CHECK(pmdsim_simulator_allow_outside(nullptr, 1) == PMDSIM_BAD_HANDLE);
+}
+
 TEST_CASE("Handles that are none, or no more") {
   const Loaded loaded;
   pmdsim_frame *frame = loaded.render();

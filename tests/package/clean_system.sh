@@ -41,6 +41,9 @@ install_package() {
   say 'apt-get install: done'
 }
 
+# check_hardening FOLDER: what is installed in a folder of the system is as protected as what was built.
+check_hardening() { find "$system$1" \( -name pmdsim -o -name 'libpmdsim.so.0' \) -type f,l -exec "$source_root/tests/package/hardening.sh" {} +; }
+
 use_program() {
   local setup=/usr/share/doc/pmdsim/examples/scenes/analytic/inverse_square.json
   in_system pmdsim --version
@@ -84,12 +87,15 @@ use_wheel() {
   in_system cp -r /root/pmdsim /usr/share/doc/
   in_system python3 -m venv --system-site-packages /root/venv
   in_system /root/venv/bin/pip install -q --no-index --no-deps "/root/$(basename "$wheel")"
+  check_hardening /root/venv
   use_python /root/venv/bin/python3
   say 'the wheel: done'
 }
 
 make_system
 install_package
+check_hardening /usr/bin
+check_hardening /usr/lib
 use_program
 use_python python3
 build_consumers

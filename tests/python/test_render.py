@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import copy
 import gc
 import inspect
@@ -298,6 +299,25 @@ class Render(unittest.TestCase):
             self.assertEqual(simulator.render(output_precision="float32").range_m.dtype, np.float32)
         with self.assertRaisesRegex(pmdsim.ArgumentError, "output_precision: expected float32 or float64"):
             pmdsim.render(small_setup(), output_precision="double")
+
+    def test_a_scene_reads_outside_of_its_folder_only_where_that_is_allowed(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            inside = Path(folder, "inside")
+            inside.mkdir()
+            gltf = json.loads((scenes / "wall_2m.gltf").read_text())
+            data = gltf["buffers"][0]["uri"]
+            Path(folder, "wall.bin").write_bytes(base64.b64decode(data.split(",")[1]))
+            gltf["buffers"][0]["uri"] = "../wall.bin"
+            (inside / "wall.gltf").write_text(json.dumps(gltf))
+            setup = small_setup(scene=str(inside / "wall.gltf"))
+            with self.assertRaisesRegex(pmdsim.InputError, "lies outside the scene's folder"):
+                pmdsim.render(setup)
+            allowed = pmdsim.render(setup, allow_outside=True)
+            np.testing.assert_array_equal(allowed.distance_m, pmdsim.render(small_setup()).distance_m)
+            with self.assertRaisesRegex(pmdsim.InputError, "lies outside the scene's folder"):
+                pmdsim.Simulator(setup)
+            with pmdsim.Simulator(setup, allow_outside=True) as simulator:
+                self.assertEqual(simulator.render().distance_m.shape, (6, 8))
 
     def test_normals_and_rays(self) -> None:
         with self.assertRaisesRegex(pmdsim.ArgumentError, 'normals: the frame has no normal_x, .*"all,normals"'):

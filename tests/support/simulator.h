@@ -1,16 +1,14 @@
 #pragma once
-// The simulator as every GPU test makes it: under the validation layer where PMDSIM_VALIDATE=1 is set.
+// The simulator as every GPU test makes it: under the validation layer where PMDSIM_VALIDATE is set.
 
 #include "engine/simulator.h"
 
 #include <cstdlib>
-#include <string_view>
 
 namespace pmdsim::test {
 
 inline Simulator make_simulator(SimulatorOptions options = {}) {
-  const char *validate = std::getenv("PMDSIM_VALIDATE");
-  options.validate = validate && std::string_view(validate) == "1";
+  options.validation = validation_of(std::getenv("PMDSIM_VALIDATE"));
   return Simulator(options);
 }
 

@@ -38,7 +38,7 @@ Specialization all_but(const ShaderModule &module, std::uint32_t forgotten) {
 } // namespace
 
 TEST_CASE("a pipeline refuses a constant that was forgotten, by its shader's name and its own") {
-  const Instance instance(false);
+  const Instance instance(Validation::none);
   for (auto &physical : instance.devices()) {
     if (!what_is_lacking(physical).empty())
       continue;

@@ -2,6 +2,7 @@
 
 #include "host/input/array/array_formats.h"
 #include "host/input/file/input_file.h"
+#include "host/input/file/memory_request.h"
 #include "host/input/frame/frame_file.h"
 #include "host/input/image/image_pixels.h"
 
@@ -24,6 +25,8 @@ ImageArrays frame_arrays(const std::filesystem::path &file,
     read.names.push_back(channel.name);
     if (!wanted(channel.name))
       continue;
+    require_memory(frame.resolution.x * std::size_t{frame.resolution.y} * sizeof(double), Place{file},
+                   "the channel " + channel.name);
     std::visit(
         [&](const auto &values) {
           using Value = std::decay_t<decltype(values)>::value_type;
@@ -57,6 +60,7 @@ ImageArray png_array(std::string_view bytes, const Place &place) {
     return image.component_bytes == 2 ? 256u * at[0] + at[1] : unsigned{at[0]};
   };
   const std::size_t pixels = std::size_t{image.size.x} * image.size.y;
+  require_memory(pixels * sizeof(double), place, "its numbers");
   array.values.reserve(pixels);
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     if (component(pixel, 0) != component(pixel, 1) || component(pixel, 0) != component(pixel, 2))

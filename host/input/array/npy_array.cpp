@@ -1,5 +1,7 @@
 #include "host/input/array/array_formats.h"
 
+#include "host/input/file/memory_request.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -197,6 +199,7 @@ ImageArray npy_array(std::string_view bytes, const Place &place) {
                                          "{} bytes",
                                          rows, columns, type.bytes, found));
   const bool swapped = header.descr.front() == '>';
+  require_memory(values * sizeof(double), place, fmt::format("{} x {} values", rows, columns));
   array.values.resize(values);
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t column = 0; column < columns; ++column) {

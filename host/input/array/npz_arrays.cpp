@@ -1,5 +1,7 @@
 #include "host/input/array/array_formats.h"
 
+#include "host/input/file/memory_request.h"
+
 #include <archive.h>
 #include <archive_entry.h>
 #include <fmt/format.h>
@@ -12,6 +14,7 @@ namespace {
 constexpr std::string_view ending = ".npy";
 // Deflate makes at most 1032 bytes of one.
 constexpr std::size_t most_of_a_byte = 1032;
+constexpr std::size_t most_arrays = 65'535; // as many as a ZIP file has without extensions
 
 struct Free {
   void operator()(archive *of) const { archive_read_free(of); }
@@ -55,6 +58,8 @@ public:
       if (offset != static_cast<la_int64_t>(bytes.size()) || size > most_bytes_)
         throw input_error(place_, "expected arrays without gaps, and no more than the file can hold");
       most_bytes_ -= size;
+      if (bytes.size() + size > bytes.capacity())
+        require_memory(2 * (bytes.size() + size), place_, "an array of it");
       bytes.append(static_cast<const char *>(block), size);
     }
     return bytes;
@@ -81,6 +86,8 @@ ImageArrays npz_arrays(std::string_view bytes, const std::function<bool(std::str
   ImageArrays read{"NPZ"};
   NpzReader reader(bytes, place);
   while (const std::optional<std::string> name = reader.next()) {
+    if (read.names.size() == most_arrays)
+      throw input_error(place, fmt::format("expected at most {} arrays", most_arrays));
     read.names.push_back(*name);
     if (!wanted(*name))
       continue;

@@ -1,5 +1,7 @@
 #include "host/input/array/array_formats.h"
 
+#include "host/input/file/memory_request.h"
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -83,6 +85,8 @@ ImageArray text_array(std::string_view text, const Place &place) {
     const std::vector<Field> fields = fields_of(line);
     if (std::exchange(is_first, false) && are_names(fields))
       continue;
+    if (const std::size_t values = array.values.size() + fields.size(); values > array.values.capacity())
+      require_memory(2 * values * sizeof(double), place, "its numbers");
     for (const Field &field : fields)
       array.values.push_back(number_in(field.text, {at.file, at.line, field.column}));
     if (rows++ == 0)

@@ -11,32 +11,42 @@ namespace pmdsim {
 namespace {
 
 // The names that OpenCV's programs, its tutorials, ROS and ROS 2 give to one thing.
-const std::vector<std::string> camera_matrix_names{
-    "camera_matrix", "cameraMatrix", "Camera_Matrix", "intrinsic_matrix", "K", "k", "M"};
-const std::vector<std::string> distortion_names{
-    "distortion_coefficients", "Distortion_Coefficients", "dist_coeffs", "distCoeffs", "coeffs", "D", "d"};
-const std::vector<std::string> size_or_width_names{"image_size",  "imageSize", "resolution", "image_width",
-                                                   "image_Width", "img_width", "width"};
-const std::vector<std::string> height_names{"image_height", "image_Height", "img_height", "height"};
+struct Names {
+  std::vector<std::string> camera_matrix{
+      "camera_matrix", "cameraMatrix", "Camera_Matrix", "intrinsic_matrix", "K", "k", "M"};
+  std::vector<std::string> distortion{
+      "distortion_coefficients", "Distortion_Coefficients", "dist_coeffs", "distCoeffs", "coeffs", "D", "d"};
+  std::vector<std::string> size_or_width{"image_size",  "imageSize", "resolution", "image_width",
+                                         "image_Width", "img_width", "width"};
+  std::vector<std::string> height{"image_height", "image_Height", "img_height", "height"};
+};
+
+const Names &names() {
+  static const Names names;
+  return names;
+}
+
+glm::uvec2 resolution_of(const CalibrationMap &map) {
+  const CalibrationEntry width = map.at(names().size_or_width);
+  if (!width.value.IsScalar())
+    return size_of(width);
+  const CalibrationEntry height = map.at(names().height);
+  return {pixels_of(width.key, number_of(width)), pixels_of(height.key, number_of(height))};
+}
 
 // By distortion_model or model. ROS's camera_info of a camera that nobody calibrated, or of a rectified
 // image, has the empty one.
-const std::map<std::string, DistortionModel> models{{"plumb_bob", DistortionModel::brown},
-                                                    {"rational_polynomial", DistortionModel::brown},
-                                                    {"equidistant", DistortionModel::fisheye},
-                                                    {"fisheye", DistortionModel::fisheye},
-                                                    {"kannala_brandt", DistortionModel::fisheye},
-                                                    {"Brown Conrady", DistortionModel::brown},
-                                                    {"Kannala Brandt4", DistortionModel::fisheye},
-                                                    {"None", DistortionModel::nameless},
-                                                    {"", DistortionModel::nameless}};
-
-glm::uvec2 resolution_of(const CalibrationMap &map) {
-  const CalibrationEntry width = map.at(size_or_width_names);
-  if (!width.value.IsScalar())
-    return size_of(width);
-  const CalibrationEntry height = map.at(height_names);
-  return {pixels_of(width.key, number_of(width)), pixels_of(height.key, number_of(height))};
+const std::map<std::string, DistortionModel> &models() {
+  static const std::map<std::string, DistortionModel> models{{"plumb_bob", DistortionModel::brown},
+                                                             {"rational_polynomial", DistortionModel::brown},
+                                                             {"equidistant", DistortionModel::fisheye},
+                                                             {"fisheye", DistortionModel::fisheye},
+                                                             {"kannala_brandt", DistortionModel::fisheye},
+                                                             {"Brown Conrady", DistortionModel::brown},
+                                                             {"Kannala Brandt4", DistortionModel::fisheye},
+                                                             {"None", DistortionModel::nameless},
+                                                             {"", DistortionModel::nameless}};
+  return models;
 }
 
 DistortionModel model_of(const CalibrationMap &map) {
@@ -50,8 +60,8 @@ DistortionModel model_of(const CalibrationMap &map) {
   const auto model = map.find({"distortion_model", "model"});
   if (!model)
     return DistortionModel::brown;
-  const auto known = models.find(text_of(*model));
-  if (known == models.end())
+  const auto known = models().find(text_of(*model));
+  if (known == models().end())
     throw input_error(model->key,
                       fmt::format("expected plumb_bob, rational_polynomial, equidistant, fisheye or "
                                   "kannala_brandt, found {}",
@@ -66,7 +76,7 @@ void read_matrix(const CalibrationMap &map, Calibration &calibration) {
     return set_camera_matrix(fx->key, {number_of(*fx), number_of(fy), number_of(cx), number_of(cy)},
                              calibration);
   }
-  const CalibrationEntry matrix = map.at(camera_matrix_names);
+  const CalibrationEntry matrix = map.at(names().camera_matrix);
   const bool by_columns = matrix.key.name == "intrinsic_matrix" && matrix.value.IsSequence();
   read_camera_matrix(matrix, calibration, by_columns ? MatrixOrder::columns : MatrixOrder::rows);
 }
@@ -87,12 +97,12 @@ void read_named_distortion(const CalibrationMap &map, Calibration &calibration) 
 }
 
 void read_any_distortion(const CalibrationMap &map, Calibration &calibration) {
-  if (const auto distortion = map.find(distortion_names))
+  if (const auto distortion = map.find(names().distortion))
     return read_distortion(*distortion, model_of(map), calibration);
   // Files of OpenCV and ROS have coefficients beside their matrix; plain intrinsics may have none.
   const std::string &matrix = calibration.camera_matrix_at.name;
   if (matrix != "fx" && matrix != "fl_x" && matrix != "intrinsic_matrix")
-    map.at(distortion_names);
+    map.at(names().distortion);
   read_named_distortion(map, calibration);
 }
 

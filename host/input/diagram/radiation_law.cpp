@@ -52,7 +52,7 @@ bool is_number_like(std::string_view text) {
   return first.find(text.front()) != first.npos && text.find_first_not_of("0123456789.+-eE") == text.npos;
 }
 
-const std::string pattern_expected = "expected an order such as 1, isotropic, or a diagram's file name";
+constexpr const char *pattern_expected = "expected an order such as 1, isotropic, or a diagram's file name";
 
 // What a field that names no file may have been meant by, as the end of a message.
 std::string hint_of_pattern(std::string_view field, const std::filesystem::path &file) {
@@ -94,7 +94,7 @@ Pattern law_in_setup(const ordered_json &pattern, const Place &place, DiagramFil
 
 Pattern law_in_field(std::string_view field, const TextPlace &place, DiagramFiles &diagrams) {
   if (field.empty())
-    throw input_error(place, "pattern: " + pattern_expected);
+    throw input_error(place, std::string("pattern: ") + pattern_expected);
   if (is_number_like(field))
     return numbered(cosine, number_of(field, "pattern", place, limits_of(cosine)));
   const std::string_view key = field.substr(0, field.find(' '));

@@ -1,6 +1,7 @@
 #include "host/input/file/input_error.h"
 
 #include "host/input/file/json_position.h"
+#include "host/input/words/utf8.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,11 +10,9 @@
 namespace pmdsim {
 namespace {
 
-// File names come from the user too and may hold line breaks.
-std::string one_line(std::string text) {
-  std::ranges::replace_if(
-      text, [](unsigned char byte) { return byte < 0x20 || byte == 0x7f; }, '?');
-  return text;
+// File names and keys come from others too and may hold anything.
+Error line_error(std::string_view message, const std::filesystem::path &file, std::string_view place) {
+  return {ExitCode::input, in_one_line(message), {in_one_line(file.string()), in_one_line(place)}};
 }
 
 // "FILE: POINTER", "FILE" for the empty pointer.
@@ -81,7 +80,7 @@ Error error_at(const Place &place, const Whence &whence, std::string_view messag
   const std::string line = fmt::format("{}{}: {}{}{}", place.file.string(), whence.position,
                                        within.substr(std::min(within.find_first_not_of(' '), within.size())),
                                        within.empty() ? "" : ": ", message);
-  return {ExitCode::input, one_line(line), {place.file.string(), pointer}};
+  return line_error(line, place.file, pointer);
 }
 
 bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80U; }
@@ -120,9 +119,7 @@ Error input_error(const TextPlace &place, std::string_view message) {
     return input_error(Place{place.file}, message);
   const std::string column = place.column == 0 ? "" : fmt::format(":{}", place.column);
   const std::string position = fmt::format("{}{}", place.line, column);
-  return {ExitCode::input,
-          one_line(fmt::format("{}:{}: {}", place.file.string(), position, message)),
-          {place.file.string(), position}};
+  return line_error(fmt::format("{}:{}: {}", place.file.string(), position, message), place.file, position);
 }
 
 Error input_error(const AnyPlace &place, std::string_view message) {
@@ -130,7 +127,7 @@ Error input_error(const AnyPlace &place, std::string_view message) {
 }
 
 Warning input_warning(const char *code, const Place &place, std::string text) {
-  return {code, one_line(text_of(place)), one_line(std::move(text))};
+  return {code, in_one_line(text_of(place)), in_one_line(text)};
 }
 
 } // namespace pmdsim

@@ -1,6 +1,7 @@
 #include "host/input/file/input_file.h"
 
 #include "host/input/file/files_read.h"
+#include "host/input/file/memory_request.h"
 #include "host/input/words/file_kind.h"
 #include "host/input/words/near_file.h"
 
@@ -84,6 +85,7 @@ std::string read_regular_file(const std::filesystem::path &file, std::size_t max
   const std::size_t size_bytes = size_of_regular(stream, file, named_at);
   if (size_bytes > max_bytes)
     throw refused(file, fmt::format("has {} bytes, expected at most {}", size_bytes, max_bytes), named_at);
+  require_memory(size_bytes, named_at, file.filename().string());
   return front_of(stream, size_bytes, file, named_at);
 }
 
@@ -94,6 +96,7 @@ std::string read_front_of_regular_file(const std::filesystem::path &file, std::s
   if (size_bytes < length_bytes)
     throw refused(file, fmt::format("has {} bytes, expected at least {}", size_bytes, length_bytes),
                   named_at);
+  require_memory(length_bytes, named_at, file.filename().string());
   return front_of(stream, length_bytes, file, named_at);
 }
 

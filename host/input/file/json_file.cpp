@@ -3,6 +3,8 @@
 #include "host/input/file/input_error.h"
 #include "host/input/file/json_position.h"
 #include "host/input/file/json_syntax.h"
+#include "host/input/file/memory_request.h"
+#include "host/input/words/utf8.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +63,8 @@ public:
     return true;
   }
 
+  std::size_t values() const { return values_; } // so far
+
   bool parse_error(std::size_t position, const std::string &, const json::exception &exception) override {
     throw syntax_error(text_, position, file_, comments_, exception);
   }
@@ -91,10 +95,12 @@ private:
     const std::string within = object.pointer.empty() ? "" : object.pointer.to_string() + ": ";
     const Error error = input_error(line_of(2), fmt::format("{}key {} appears twice, first in line {}",
                                                             within, in_quotes(name), line_of(1).line));
-    return {error.code(), error.what(), {file_.string(), object.pointer.to_string()}};
+    return {error.code(), error.what(), {error.where().file, in_one_line(object.pointer.to_string())}};
   }
 
   bool value() {
+    if (++values_ > max_json_values)
+      throw input_error(Place{file_}, fmt::format("expected at most {} values", max_json_values));
     if (!open_.empty())
       ++open_.back().index;
     return true;
@@ -117,6 +123,7 @@ private:
   const std::filesystem::path &file_;
   Comments comments_;
   std::vector<Container> open_;
+  std::size_t values_ = 0;
 };
 
 // JSON Schema, draft-07, section 6.1.1: a number without a fractional part is an integer, however written.
@@ -129,16 +136,23 @@ void make_integer(json &number) {
 
 } // namespace
 
-json parse_json(std::string_view text, const std::filesystem::path &file, Comments comments) {
-  const bool ignore_comments = comments == Comments::allowed;
+void check_json(std::string_view text, const std::filesystem::path &file, Comments comments) {
   Guard guard(text, file, comments);
-  json::sax_parse(text.begin(), text.end(), &guard, json::input_format_t::json, true, ignore_comments);
+  json::sax_parse(text.begin(), text.end(), &guard, json::input_format_t::json, true,
+                  comments == Comments::allowed);
+  constexpr std::size_t value_bytes = 64; // about, in a list or an object
+  require_memory(guard.values() * value_bytes, Place{file},
+                 fmt::format("a document of {} values", guard.values()));
+}
+
+json parse_json(std::string_view text, const std::filesystem::path &file, Comments comments) {
+  check_json(text, file, comments);
   const auto with_integers = [](int, json::parse_event_t, json &parsed) {
     if (parsed.is_number_float())
       make_integer(parsed);
     return true;
   };
-  return json::parse(text.begin(), text.end(), with_integers, true, ignore_comments);
+  return json::parse(text.begin(), text.end(), with_integers, true, comments == Comments::allowed);
 }
 
 } // namespace pmdsim

@@ -11,12 +11,18 @@ namespace pmdsim {
 enum class Comments { refused, allowed };
 
 inline constexpr std::size_t max_json_depth = 64; // objects and arrays within each other
+// Numbers, texts, objects and arrays; one takes about 50 bytes, a text of the file perhaps 2.
+inline constexpr std::size_t max_json_values = std::size_t{1} << 24;
 
 // A number without a fractional part is an integer in the result, even if it is written as 8.0 or 2e7.
 // `file` is named in errors only. Throws Error (input): "FILE:LINE:COLUMN: ..." for a syntax error, a number
 // beyond double or bytes that are not UTF-8, "FILE:LINE:COLUMN: POINTER: ..." for a doubled key, "FILE: ..."
-// for a document that is nested too deep.
+// for a document that is nested too deep or has more than max_json_values; (out_of_memory) where there is no
+// room for its values.
 nlohmann::json parse_json(std::string_view text, const std::filesystem::path &file, Comments comments);
+
+// What of that is thrown, without the document.
+void check_json(std::string_view text, const std::filesystem::path &file, Comments comments);
 
 } // namespace pmdsim
 

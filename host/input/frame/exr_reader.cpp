@@ -1,5 +1,6 @@
 #include "engine/model/channel_names.h"
 #include "host/input/frame/frame_bytes.h"
+#include "host/input/words/utf8.h"
 
 #include <algorithm>
 #include <cstring>

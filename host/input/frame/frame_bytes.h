@@ -15,8 +15,6 @@ struct FrameBytes {
   std::string content;
 };
 
-bool is_utf8(std::string_view text);
-
 // "FILE: MESSAGE", (input).
 Error frame_error(const FrameBytes &frame, std::string_view message);
 

@@ -3,6 +3,7 @@
 #include "engine/correction/corrected_channels.h"
 #include "engine/model/channel_names.h"
 #include "host/input/file/input_file.h"
+#include "host/input/file/memory_request.h"
 #include "host/input/frame/frame_bytes.h"
 
 #include <algorithm>
@@ -19,41 +20,7 @@ constexpr std::string_view h5_magic("\x89HDF\r\n\x1a\n", 8);
 // Deflate makes at most 1032 bytes of one.
 constexpr std::uint64_t most_of_a_byte = 1032;
 
-// How many bytes of the character that begins `text` are to follow the first, within which the second lies;
-// nothing where no character begins so. Source: RFC 3629, section 4.
-struct Utf8Start {
-  std::size_t more;
-  unsigned char least = 0x80, most = 0xbf;
-};
-
-std::optional<Utf8Start> utf8_start(unsigned char first) {
-  if (first < 0x80)
-    return Utf8Start{0};
-  if (first >= 0xc2 && first <= 0xdf)
-    return Utf8Start{1};
-  if (first >= 0xe0 && first <= 0xef)
-    return Utf8Start{2, static_cast<unsigned char>(first == 0xe0 ? 0xa0 : 0x80),
-                     static_cast<unsigned char>(first == 0xed ? 0x9f : 0xbf)};
-  if (first >= 0xf0 && first <= 0xf4)
-    return Utf8Start{3, static_cast<unsigned char>(first == 0xf0 ? 0x90 : 0x80),
-                     static_cast<unsigned char>(first == 0xf4 ? 0x8f : 0xbf)};
-  return std::nullopt;
-}
-
 } // namespace
-
-bool is_utf8(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    std::optional<Utf8Start> start = utf8_start(byte(i));
-    if (!start || start->more >= text.size() - i)
-      return false;
-    for (; start->more > 0; start = Utf8Start{start->more - 1})
-      if (++i; byte(i) < start->least || byte(i) > start->most)
-        return false;
-  }
-  return true;
-}
 
 Error frame_error(const FrameBytes &frame, std::string_view message) {
   return input_error(Place{frame.file}, message);
@@ -67,6 +34,8 @@ glm::uvec2 checked_resolution(const FrameBytes &frame, std::uint64_t columns, st
   if (columns * rows > stored_bytes * most_of_a_byte / pixel_bytes)
     throw frame_error(frame, fmt::format("expected the values of {} x {} pixels, found {} bytes", columns,
                                          rows, stored_bytes));
+  require_memory(columns * rows * pixel_bytes, Place{frame.file},
+                 fmt::format("{} x {} pixels", columns, rows));
   return {columns, rows};
 }
 

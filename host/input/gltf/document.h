@@ -15,9 +15,15 @@ inline constexpr std::size_t max_gltf_file_bytes = std::size_t{1} << 30;
 
 using Bytes = std::vector<unsigned char>;
 
+// Where the files lie that a scene names by URI: in its folder or below, or wherever the user may read.
+enum class UriFiles { beside, anywhere };
+inline constexpr const char *allow_outside_option = "--allow-outside"; // for the latter; and as errors say it
+inline constexpr const char *allow_outside_words = "--allow-outside, allow_outside in Python";
+
 struct GltfDocument {
   nlohmann::json json;      // every key that is read has the right type, every index exists
   std::string binary_chunk; // a .glb's BIN chunk; empty where there is none
+  UriFiles files = UriFiles::beside;
 };
 
 // Throws Error (input); one that concerns the file as a whole is at `named_at`, the place that names the

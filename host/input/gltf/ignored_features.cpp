@@ -50,10 +50,9 @@ constexpr std::array silent_extensions{
     "MSFT_texture_dds",
 };
 
-const json empty_array = json::array();
-
 // An array of the document, or an empty one: not all of them have passed the schema.
 const json &list_at(const json &object, const char *key) {
+  static const json empty_array = json::array();
   const auto found = object.is_object() ? object.find(key) : object.end();
   return object.is_object() && found != object.end() && found->is_array() ? *found : empty_array;
 }

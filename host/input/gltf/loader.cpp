@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
+#include <string_view>
 #include <tiny_gltf.h>
 #include <utility>
 
@@ -168,15 +169,19 @@ std::optional<GltfPerspective> GltfFile::camera_of(int index) const {
 
 std::vector<NodePlacement> GltfFile::placements(const std::vector<PlacedNode> &placed) const {
   std::vector<NodePlacement> result;
+  if (placed.empty())
+    return result;
+  std::multimap<std::string_view, std::size_t> places;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    places.emplace(model_->nodes[nodes_[i].index].name, i);
   for (const PlacedNode &each : placed) {
-    const auto is_it = [&](const SceneNode &node) { return model_->nodes[node.index].name == each.name; };
-    const auto node = std::ranges::find_if(nodes_, is_it);
-    if (node == nodes_.end())
+    const auto [node, end] = places.equal_range(each.name);
+    if (node == end)
       throw input_error(each.place, absent_node_text(each.name, file_, named_nodes()));
-    if (std::ranges::count_if(nodes_, is_it) > 1)
+    if (std::next(node) != end)
       throw input_error(each.place,
                         fmt::format("more than one node {} in {}", in_quotes(each.name), file_.string()));
-    result.push_back({static_cast<std::size_t>(node - nodes_.begin()), each.world_from_node, each.place});
+    result.push_back({node->second, each.world_from_node, each.place});
   }
   return result;
 }
@@ -230,10 +235,11 @@ std::string absent_camera_text(const std::string &name, const std::filesystem::p
                      in_quotes(name), file.string(), others);
 }
 
-GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at) {
-  const GltfDocument document = read_gltf_document(file, named_at);
+GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at, UriFiles files) {
+  GltfDocument document = read_gltf_document(file, named_at);
+  document.files = files;
   const auto model = std::make_shared<const tinygltf::Model>(model_of(document, file));
-  return {file, model, std::make_shared<GltfMaterials>(document.json, model, file), document.json};
+  return {file, model, std::make_shared<GltfMaterials>(document.json, model, file, files), document.json};
 }
 
 } // namespace pmdsim

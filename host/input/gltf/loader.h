@@ -6,6 +6,7 @@
 #include "host/input/file/input_error.h"
 #include "host/input/gltf/animation.h"
 #include "host/input/gltf/cameras.h"
+#include "host/input/gltf/document.h"
 #include "host/input/gltf/ignored_features.h"
 #include "host/input/gltf/nodes.h"
 #include "host/input/gltf/skin.h"
@@ -89,6 +90,7 @@ std::string absent_camera_text(const std::string &name, const std::filesystem::p
 // Throws Error (input): an error in the file is told at its place there ("scene.gltf: /accessors/3: ..."), a
 // file that cannot be read at `named_at`, the place that names it. Features of glTF without which the scene
 // would be another are refused by name; the others that are not simulated are warned of.
-GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at);
+GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at,
+                   UriFiles files = UriFiles::beside);
 
 } // namespace pmdsim

@@ -158,14 +158,18 @@ std::vector<std::optional<std::size_t>> places_of_nodes(const tinygltf::Model &m
 
 std::vector<AffineTransform> world_from_nodes(const std::vector<SceneNode> &nodes, const Place &root,
                                               const std::vector<NodePlacement> &placed) {
+  std::vector<const NodePlacement *> placement_of(nodes.size(),
+                                                  nullptr); // the first one, where there are several
+  for (const NodePlacement &placement : placed)
+    if (const NodePlacement *&of = placement_of[placement.node]; of == nullptr)
+      of = &placement;
   std::vector<AffineTransform> world_from;
   world_from.reserve(nodes.size());
   for (const SceneNode &node : nodes) {
     const AffineTransform parent_from_node = node.transform.parent_from_node();
     world_from.push_back(node.parent ? compose(world_from[*node.parent], parent_from_node)
                                      : parent_from_node);
-    const auto placement = std::ranges::find(placed, world_from.size() - 1, &NodePlacement::node);
-    if (placement != placed.end())
+    if (const NodePlacement *placement = placement_of[world_from.size() - 1])
       world_from.back() = put_at(*placement, world_from.back());
     if (!is_finite(world_from.back()))
       throw input_error(root / "nodes" / node.index, "its transform is not finite");

@@ -1,5 +1,7 @@
 #include "host/input/image/image_pixels.h"
 
+#include "host/input/file/memory_request.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -95,13 +97,16 @@ private:
   png_infop info_ = nullptr;
 };
 
-// Throws Error (input) at `place`.
-void check_image_size(const glm::uvec2 &size, std::size_t max_pixels, const Place &place) {
+// Throws Error (input), and (out_of_memory) where there is no room for them, at `place`.
+void check_image_size(const glm::uvec2 &size, std::size_t component_bytes, std::size_t max_pixels,
+                      const Place &place) {
   const std::string found = fmt::format("found an image of {} x {}", size.x, size.y);
   if (size.x > max_image_side || size.y > max_image_side)
     throw input_error(place, fmt::format("expected at most {} pixels a side, {}", max_image_side, found));
   if (std::size_t{size.x} * size.y > max_pixels)
     throw input_error(place, fmt::format("expected at most {} further pixels, {}", max_pixels, found));
+  require_memory(std::size_t{size.x} * size.y * 4 * component_bytes, place,
+                 fmt::format("an image of {} x {}", size.x, size.y));
 }
 
 Error broken(const PngReader &reader, const Place &place) {
@@ -113,7 +118,7 @@ ImagePixels decoded_png(std::span<const unsigned char> bytes, std::size_t max_pi
   PngReader reader(bytes);
   if (!reader.read_header())
     throw broken(reader, place);
-  check_image_size(reader.size(), max_pixels, place);
+  check_image_size(reader.size(), reader.component_bytes(), max_pixels, place);
 
   ImagePixels pixels{reader.size(), reader.component_bytes()};
   const std::size_t row_bytes = std::size_t{pixels.size.x} * 4 * pixels.component_bytes;
@@ -148,7 +153,7 @@ ImagePixels decoded_jpeg(std::span<const unsigned char> bytes, std::size_t max_p
   if (colours == TJCS_CMYK || colours == TJCS_YCCK)
     throw input_error(place, "expected a JPEG in grey or colour, found CMYK");
   ImagePixels pixels{{width, height}};
-  check_image_size(pixels.size, max_pixels, place);
+  check_image_size(pixels.size, 1, max_pixels, place);
 
   pixels.rgba.resize(std::size_t{4} * pixels.size.x * pixels.size.y);
   constexpr int tightly = 0; // rows follow one another without a gap

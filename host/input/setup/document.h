@@ -2,6 +2,7 @@
 // A setup as its JSON says it, and changes to it, before anything is made of it.
 
 #include "host/input/file/input_error.h"
+#include "host/input/gltf/document.h"
 
 #include <filesystem>
 #include <memory>
@@ -16,6 +17,7 @@ struct SetupDocument {
   nlohmann::json json{};                             // unchecked, without presets and defaults
   std::filesystem::path folder = file.parent_path(); // where relative paths in it start
   std::shared_ptr<const JsonSource> source{};        // null: errors tell no line
+  UriFiles scene_files = UriFiles::beside;           // those that its scene names
 
   Place root() const { return {.file = file, .folder = folder, .source = source}; }
 };

@@ -292,7 +292,7 @@ Setup SetupLoader::load(const SetupDocument &document) {
   std::optional<FilesRead> of_scene;
   if (known == files_->scenes.end())
     of_scene.emplace(folder);
-  const GltfFile gltf = of_scene ? load_gltf(file, root / "scene") : known->second.gltf;
+  const GltfFile gltf = of_scene ? load_gltf(file, root / "scene", document.scene_files) : known->second.gltf;
   const auto at = [gltf, trajectories, root, used = setup.as_used](double time_s) {
     return gltf.at(time_s, placed_nodes(used, root, trajectories, time_s));
   };

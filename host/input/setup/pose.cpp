@@ -105,9 +105,14 @@ std::vector<PlacedNode> placed_nodes(const ordered_json &setup, const Place &roo
 
 Trajectories read_trajectories(const ordered_json &setup, const Place &root) {
   Trajectories trajectories;
+  std::size_t poses = 0;
   for_each_trajectory_of(setup, root, [&](const std::string &name, const Place &place) {
-    if (!trajectories.contains(name))
-      trajectories[name] = std::make_shared<const Trajectory>(read_trajectory(root.folder / name, place));
+    if (trajectories.contains(name))
+      return;
+    trajectories[name] = std::make_shared<const Trajectory>(read_trajectory(root.folder / name, place));
+    poses += trajectories[name]->times_s.size();
+    if (poses > max_setup_poses)
+      throw input_error(place, fmt::format("expected at most {} poses in all trajectories", max_setup_poses));
   });
   return trajectories;
 }

@@ -25,6 +25,7 @@ struct Trajectory {
 };
 
 inline constexpr std::size_t max_poses = 100'000;
+inline constexpr std::size_t max_setup_poses = 2'000'000; // of all files of a setup
 
 // A text file of one of these forms, at most max_poses poses:
 //   TUM: lines of "time_s x_m y_m z_m qx qy qz qw", separated by blanks; # begins a comment

@@ -47,6 +47,20 @@ OutputDirectory::OutputDirectory(const fs::path &directory)
   }
 }
 
+void refuse_linked_folders(const fs::path &directory, const fs::path &folder) {
+  fs::path path = directory;
+  for (const fs::path &part : folder) {
+    path /= part;
+    std::error_code ignored;
+    if (fs::is_symlink(path, ignored))
+      throw Error(
+          ExitCode::output,
+          fmt::format("{}: is a symbolic link, expected a folder or nothing: nothing is written through "
+                      "links inside of the output directory",
+                      path.string()));
+  }
+}
+
 OutputDirectory::~OutputDirectory() { remove_if_empty(created_); }
 
 } // namespace pmdsim

@@ -24,4 +24,9 @@ private:
   std::vector<std::filesystem::path> created_; // outermost first
 };
 
+// Throws Error (output) where `folder`, or one on the way to it, is a link; `folder` is relative to
+// `directory`, which itself may be one. Nothing is written through links that somebody else may have put
+// there.
+void refuse_linked_folders(const std::filesystem::path &directory, const std::filesystem::path &folder);
+
 } // namespace pmdsim

@@ -118,6 +118,11 @@ std::uint64_t OutputFile::tell() const {
   return static_cast<std::uint64_t>(offset);
 }
 
+void OutputFile::sync() {
+  if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0)
+    fail_for_good();
+}
+
 void OutputFile::close() {
   if (std::fflush(stream_) != 0 && first_error_ == 0)
     first_error_ = errno;

@@ -15,8 +15,9 @@ namespace pmdsim {
 // replaced). The temporary is removed when an OutputFile dies unpublished. Every failure throws Error
 // (output) that names the final path and the operating system's reason.
 //
-// Whole or not at all holds against every failure, and against a program that is killed. It does not hold
-// against a power cut: nothing is synced to the disk, which takes longer than many a frame's measurement.
+// Whole or not at all holds against every failure, and against a program that is killed. Against a power cut
+// it holds where the disk has the file before it gets its name: by sync(), or by sync_file_system() for many
+// files at once.
 //
 // Each is one thread's at a time.
 class OutputFile {
@@ -37,6 +38,8 @@ public:
   void seek(std::uint64_t offset);
   std::uint64_t tell() const;
 
+  // Returns when the disk has what was written, which takes milliseconds.
+  void sync();
   // Reports what failed in any earlier write too, even where a library swallowed the exception.
   void close();
   // Throws what can be foreseen of publish(): that the name belongs to a directory.

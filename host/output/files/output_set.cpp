@@ -1,6 +1,7 @@
 #include "host/output/files/output_set.h"
 
 #include "engine/model/error.h"
+#include "host/output/files/durable.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -45,7 +46,13 @@ std::vector<std::string> OutputSet::paths() const {
   return paths;
 }
 
-void OutputSet::publish(const std::vector<std::string> &obsolete) {
+void OutputSet::publish() {
+  sync_file_system(directory());
+  give_names();
+  sync_names(directory());
+}
+
+void OutputSet::give_names(const std::vector<std::string> &obsolete) {
   // A file that has replaced the user's cannot give it back: what can be foreseen must not come to that.
   for (const auto &file : files_)
     file->check_publishable();

@@ -41,10 +41,13 @@ public:
   // The paths of the files added so far, in order, with the directory in front.
   std::vector<std::string> paths() const;
 
-  // Removes the files in the directory that are named `obsolete`, where there are any, and renames all of the
-  // set to their names. Throws Error (output): where a directory has one of the names, before
-  // anything is replaced; where a rename itself fails, none of the set's files stays.
-  void publish(const std::vector<std::string> &obsolete = {});
+  // Waits until the disk has the files, and gives them their names. Throws Error (output).
+  void publish();
+  // The same of files that the disk has: removes the files in the directory that are named `obsolete`, where
+  // there are any, and renames all of the set to their names. Throws Error (output): where a directory has
+  // one of the names, before anything is replaced; where a rename itself fails, none of the set's files
+  // stays.
+  void give_names(const std::vector<std::string> &obsolete = {});
 
 private:
   OutputDirectory directory_; // removed, where it is empty, after the files

@@ -50,6 +50,7 @@ WrittenReport write_report(const ReportRequest &request, const std::function<voi
   check();
   OutputFile file(path);
   write_page(json, data.blocks, [&](std::string_view text) { file.write(text); });
+  file.sync();
   file.close();
   file.publish();
   written.bytes = file.size_bytes();

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 
 namespace pmdsim {
 namespace {
@@ -47,17 +48,19 @@ Error no_channels(const fs::path &manifest, const std::string &sensor, std::uint
                   in_quotes(sensor), frame, fmt::join(frame_file_endings, ", ")));
 }
 
-void add_frame(RunContent &run, const fs::path &manifest, ordered_json &entry) {
+// `place_of` has the places of sensors in the run, by their names.
+void add_frame(RunContent &run, std::map<std::string, std::size_t> &place_of, const fs::path &manifest,
+               ordered_json &entry) {
   const auto name = entry.at("sensor").get<std::string>();
   const auto number = entry.at("frame").get<std::uint32_t>();
   fs::path file = file_with_channels(run.directory, names_of(entry));
   if (file.empty())
     throw no_channels(manifest, name, number);
-  auto sensor = std::ranges::find(run.sensors, name, &PageSensor::name);
-  if (sensor == run.sensors.end())
-    sensor = run.sensors.insert(run.sensors.end(), PageSensor{name, {}});
+  const auto [place, is_new] = place_of.try_emplace(name, run.sensors.size());
+  if (is_new)
+    run.sensors.push_back({name, {}});
   entry.erase("outputs");
-  sensor->frames.push_back({number, std::move(entry), std::move(file)});
+  run.sensors[place->second].frames.push_back({number, std::move(entry), std::move(file)});
 }
 
 ordered_json parsed_manifest(const fs::path &file) {
@@ -81,9 +84,10 @@ RunContent read_run(const fs::path &directory, const std::optional<FrameRange> &
   try {
     auto entries = std::move(run.head.at("frames").get_ref<ordered_json::array_t &>());
     run.head.erase("frames");
+    std::map<std::string, std::size_t> place_of;
     for (ordered_json &entry : entries)
       if (!frames || frames->contains(entry.at("frame").get<std::uint32_t>()))
-        add_frame(run, file, entry);
+        add_frame(run, place_of, file, entry);
   } catch (const nlohmann::json::exception &) {
     throw input_error(Place{file}, fmt::format("is no manifest, {}", expected));
   }

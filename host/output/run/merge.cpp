@@ -180,7 +180,8 @@ void bring_frame(const Source &source, std::uint32_t frame, RunFolder &into, Mer
     for (const std::string name : sensor.at("manifest").at("outputs"))
       ++(bring(source.path / name, into.path() / name) ? merged.linked : merged.copied);
   OutputSet of_record(into.path());
-  into.publish(of_record, *record);
+  RunFolder::add_record(of_record, *record);
+  into.publish(of_record, frame);
 }
 
 } // namespace

@@ -10,7 +10,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <regex>
-#include <sys/stat.h>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
@@ -40,16 +39,15 @@ struct Removed {
   ~Removed() { ::unlink(path.c_str()); }
 };
 
+// A link of its name is no run's file and goes, as what it leads to is nobody's to lock.
 std::optional<ByteLocks> opened(const fs::path &file) {
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
   if (descriptor >= 0)
     return ByteLocks(descriptor);
-  if (errno != ENOENT)
+  if (errno == ELOOP)
+    remove_file(file);
+  else if (errno != ENOENT)
     throw unwritable(file, errno);
-  struct stat status {};
-  if (::lstat(file.c_str(), &status) == 0 && S_ISLNK(status.st_mode))
-    throw Error(ExitCode::output,
-                fmt::format("{}: cannot be written: it is a symbolic link to nothing", file.string()));
   return std::nullopt;
 }
 
@@ -220,11 +218,14 @@ bool RunFolder::seems_free(std::uint32_t frame) const {
          ::access((path() / record_name(frame)).c_str(), F_OK) != 0;
 }
 
-void RunFolder::publish(OutputSet &files, const nlohmann::ordered_json &record) {
-  const auto frame = record.at("frame").get<std::uint32_t>();
-  const std::string name = record_name(frame);
-  files.add(name, [&](OutputFile &file) { file.write(json_text(record)); });
-  files.publish({name}); // a record of files that have gone must not speak for those that come
+void RunFolder::add_record(OutputSet &files, const nlohmann::ordered_json &record) {
+  files.add(record_name(record.at("frame").get<std::uint32_t>()),
+            [&](OutputFile &file) { file.write(json_text(record)); });
+}
+
+void RunFolder::publish(OutputSet &files, std::uint32_t frame) {
+  files.give_names(
+      {record_name(frame)}); // a record of files that have gone must not speak for those that come
   directory_.stay();
   give_back(frame);
 }

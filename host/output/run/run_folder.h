@@ -60,8 +60,10 @@ public:
   // Whether claim() would most likely be granted.
   bool seems_free(std::uint32_t frame) const;
 
-  // Publishes the files and then the record of a frame that was granted.
-  void publish(OutputSet &files, const nlohmann::ordered_json &record);
+  // Writes the record of a frame beside its other files, which have no names yet.
+  static void add_record(OutputSet &files, const nlohmann::ordered_json &record);
+  // Gives the files their names, and then the record, of a frame that was granted. The disk has them.
+  void publish(OutputSet &files, std::uint32_t frame);
 
   // From the records that are there. Of how many frames. Throws Error (output), or what `wait` throws.
   std::size_t write_manifest();

@@ -9,6 +9,8 @@
 #include <array>
 #include <climits>
 #include <fmt/format.h>
+#include <map>
+#include <string_view>
 #include <unistd.h>
 
 namespace pmdsim {
@@ -54,12 +56,15 @@ std::string escaped(const std::string &text) {
 }
 
 std::string input_difference(const ordered_json &there, const ordered_json &here) {
+  std::map<std::string_view, const ordered_json *> files; // the first one of each name
+  for (const ordered_json &input : there)
+    files.emplace(input.at("file").get_ref<const std::string &>(), &input);
   for (const ordered_json &input : here) {
-    const auto same_name = [&](const ordered_json &other) { return other.at("file") == input.at("file"); };
-    const auto found = std::ranges::find_if(there, same_name);
-    if (found == there.end() || *found != input)
-      return fmt::format("the input file {} {}", escaped(input.at("file").get<std::string>()),
-                         found == there.end() ? "was not read there" : "has changed");
+    const auto &name = input.at("file").get_ref<const std::string &>();
+    const auto found = files.find(name);
+    if (found == files.end() || *found->second != input)
+      return fmt::format("the input file {} {}", escaped(name),
+                         found == files.end() ? "was not read there" : "has changed");
   }
   return "the input files differ";
 }

@@ -5,9 +5,10 @@
 namespace pmdsim {
 namespace {
 
-// Whether brackets outside strings are nested deeper, of whatever text.
-bool is_too_deep(const std::string &text) {
-  std::size_t depth = 0;
+// Whether brackets outside strings are nested deeper than JSON may be, or there are more values, of whatever
+// text.
+bool is_too_large(const std::string &text) {
+  std::size_t depth = 0, values = 1;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char character = text[i];
@@ -16,6 +17,8 @@ bool is_too_deep(const std::string &text) {
     else if (in_string)
       i += character == '\\' ? 1 : 0;
     else if ((character == '{' || character == '[') && ++depth > max_json_depth)
+      return true;
+    else if ((character == ',' || character == '{' || character == '[') && ++values > max_json_values)
       return true;
     else if ((character == '}' || character == ']') && depth > 0)
       --depth;
@@ -26,7 +29,7 @@ bool is_too_deep(const std::string &text) {
 } // namespace
 
 std::optional<nlohmann::ordered_json> parsed_in_order(const std::string &text) {
-  if (is_too_deep(text))
+  if (is_too_large(text))
     return std::nullopt;
   auto json = nlohmann::ordered_json::parse(text, nullptr, false);
   return json.is_discarded() ? std::nullopt : std::optional(std::move(json));

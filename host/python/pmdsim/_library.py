@@ -90,6 +90,7 @@ _functions: Dict[str, List[Any]] = {
     "pmdsim_frame_find": [_handle, _text, _channel_out],
     "pmdsim_frame_report": [_handle, _text_out],
     "pmdsim_frame_directions": [_handle, ctypes.c_void_p, ctypes.c_size_t],
+    "pmdsim_simulator_allow_outside": [_handle, ctypes.c_int],
     "pmdsim_report": [_text, _text, ctypes.c_double, _text_out],
 }
 _texts = ["pmdsim_version", "pmdsim_error_message", "pmdsim_error_file", "pmdsim_error_place"]

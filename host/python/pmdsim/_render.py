@@ -55,6 +55,7 @@ def render(
     output_precision: Optional[str] = None,
     set: Optional[Mapping[str, Any]] = None,
     scene: Optional[Scene] = None,
+    allow_outside: bool = False,
 ) -> Frame:
     """Measures one frame of a setup: the same bits as `pmdsim render` writes.
 
@@ -97,6 +98,8 @@ def render(
         Changes of the setup, as Simulator.set() takes them: {"sensors/0/focal_length_m": 0.02}.
     scene : pmdsim.Scene, optional
         Triangles in place of the setup's scene.
+    allow_outside : bool, optional
+        Whether files that the scene names may lie outside of its folder: for scenes that you trust.
 
     Returns
     -------
@@ -146,7 +149,7 @@ def render(
     key = (device, os.getpid())
     simulator = _take(key) or Simulator(device=device)
     try:
-        simulator._load(setup, scene, stacklevel=3)
+        simulator._load(setup, scene, allow_outside, stacklevel=3)
         if set is not None:
             simulator._set(set, stacklevel=4)
         measured = simulator._render(sensor, frame, options, stacklevel=3)

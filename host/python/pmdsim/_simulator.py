@@ -74,6 +74,8 @@ class Simulator:
         "reference", the CPU in double precision, which is slow. By default the library chooses.
     scene : pmdsim.Scene, optional
         Triangles in place of the setup's scene.
+    allow_outside : bool, optional
+        As `load` takes it.
 
     Raises
     ------
@@ -99,7 +101,12 @@ class Simulator:
     """
 
     def __init__(
-        self, setup: Optional[SetupLike] = None, device: Optional[Device] = None, *, scene: Optional[Scene] = None
+        self,
+        setup: Optional[SetupLike] = None,
+        device: Optional[Device] = None,
+        *,
+        scene: Optional[Scene] = None,
+        allow_outside: bool = False,
     ) -> None:
         self._handle = 0
         _refuse_after_fork()
@@ -122,7 +129,7 @@ class Simulator:
         self._setup_directory = ""
         if setup is not None:
             try:
-                self._load(setup, scene, stacklevel=3)
+                self._load(setup, scene, allow_outside, stacklevel=3)
             except BaseException:
                 self.close()
                 raise
@@ -193,7 +200,7 @@ class Simulator:
             name_file(error, setup_file)
             raise
 
-    def load(self, setup: SetupLike, *, scene: Optional[Scene] = None) -> None:
+    def load(self, setup: SetupLike, *, scene: Optional[Scene] = None, allow_outside: bool = False) -> None:
         """Takes a setup in place of the one before; changes that were set are gone.
 
         Parameters
@@ -203,6 +210,8 @@ class Simulator:
             `Setup.directory`, else at the process's. "scene" may be a pmdsim.Scene.
         scene : pmdsim.Scene, optional
             Triangles in place of the setup's "scene". Poses at nodes are an error then.
+        allow_outside : bool, optional
+            Whether files that the scene names may lie outside of its folder: for scenes that you trust.
 
         Raises
         ------
@@ -211,12 +220,17 @@ class Simulator:
         ArgumentError
             A value is none that JSON has, such as NaN.
         """
-        self._load(setup, scene, stacklevel=3)
+        self._load(setup, scene, allow_outside, stacklevel=3)
 
-    def _load(self, setup: SetupLike, scene: Optional[Scene], stacklevel: int) -> None:
+    def _load(self, setup: SetupLike, scene: Optional[Scene], allow_outside: bool, stacklevel: int) -> None:
         handle = self._usable()
         given = SetupInput(setup, scene)
-        self._call(lambda: given.load(handle), given.file)
+
+        def take() -> None:
+            check(library().pmdsim_simulator_allow_outside(handle, int(bool(allow_outside))))
+            given.load(handle)
+
+        self._call(take, given.file)
         self._setup_file, self._setup_directory = given.file, given.directory
         self._described = None
         self._warned = set()

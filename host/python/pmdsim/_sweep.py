@@ -44,8 +44,10 @@ def _variants(variations: Mapping[str, Iterable[Any]], combine: str) -> Iterator
 class _Workers:
     """Threads with a simulator each."""
 
-    def __init__(self, setup: SetupLike, device: Optional[Device], scene: Optional[Scene], count: int) -> None:
-        self._setup, self._device, self._scene = setup, device, scene
+    def __init__(
+        self, setup: SetupLike, device: Optional[Device], scene: Optional[Scene], allow_outside: bool, count: int
+    ) -> None:
+        self._setup, self._device, self._scene, self._allow_outside = setup, device, scene, allow_outside
         self._of_thread = threading.local()
         self._lock = threading.Lock()
         self._simulators: List[Simulator] = []
@@ -59,7 +61,7 @@ class _Workers:
             with self._lock:
                 self._simulators.append(made)
             self._go_on()
-            made.load(self._setup, scene=self._scene)
+            made.load(self._setup, scene=self._scene, allow_outside=self._allow_outside)
             simulator = self._of_thread.simulator = made
         return simulator
 
@@ -105,6 +107,7 @@ def sweep(
     sensor: Union[int, str] = 0,
     frames: Optional[Union[int, Iterable[int]]] = None,
     scene: Optional[Scene] = None,
+    allow_outside: bool = False,
     **options: Any,
 ) -> Iterator[Tuple[Variant, Frame]]:
     """Measures many variants of a setup, for which device, pipelines and scene are made once.
@@ -129,6 +132,8 @@ def sweep(
         Which frames of each variant; by default frame 0.
     scene : pmdsim.Scene, optional
         Triangles in place of the setup's scene.
+    allow_outside : bool, optional
+        As `render` takes it.
     **options
         mode, max_error, max_amplitude_error, precision, samples, channels, paths, strict, output_precision, as for
         `render`.
@@ -164,20 +169,21 @@ def sweep(
     prepared = render_options(**options)
     variants = _variants(variations, combine)
     if count == 1:
-        return _in_turn(setup, device, scene, variants, sensor, chosen, prepared)
-    return _ahead(setup, device, scene, count, variants, sensor, chosen, prepared)
+        return _in_turn(setup, device, scene, allow_outside, variants, sensor, chosen, prepared)
+    return _ahead(setup, device, scene, allow_outside, count, variants, sensor, chosen, prepared)
 
 
 def _in_turn(
     setup: SetupLike,
     device: Optional[Device],
     scene: Optional[Scene],
+    allow_outside: bool,
     variants: Iterator[Variant],
     sensor: Union[int, str],
     frames: Sequence[int],
     options: Any,
 ) -> Iterator[Tuple[Variant, Frame]]:
-    with Simulator(setup, device, scene=scene) as simulator:
+    with Simulator(setup, device, scene=scene, allow_outside=allow_outside) as simulator:
         for variant in variants:
             simulator._set(variant, stacklevel=4)
             for frame in frames:
@@ -188,13 +194,14 @@ def _ahead(
     setup: SetupLike,
     device: Optional[Device],
     scene: Optional[Scene],
+    allow_outside: bool,
     count: int,
     variants: Iterator[Variant],
     sensor: Union[int, str],
     frames: Sequence[int],
     options: Any,
 ) -> Iterator[Tuple[Variant, Frame]]:
-    workers = _Workers(setup, device, scene, count)
+    workers = _Workers(setup, device, scene, allow_outside, count)
     pending: Deque[Tuple[Variant, "Future[List[Frame]]"]] = deque()
     try:
         for variant in itertools.islice(variants, 2 * count):

@@ -20,13 +20,17 @@ TEST_CASE("part of the reference's name is a device's name") {
   CHECK_THROWS_AS(Camera("references"), Error);
 }
 
-TEST_CASE("PMDSIM_VALIDATE=1 asks for the validation layer, and nothing else does") {
+TEST_CASE("PMDSIM_VALIDATE=1 and =gpu ask for the validation layer, and nothing else does") {
   const test::Workspace no_layers;
   ::setenv("VK_LAYER_PATH", no_layers.path().c_str(), 1);
-  ::setenv("PMDSIM_VALIDATE", "1", 1);
-  CHECK_THROWS_WITH(Camera(""), Catch::Contains("VK_LAYER_KHRONOS_validation is not installed"));
-  ::setenv("PMDSIM_VALIDATE", "0", 1);
-  CHECK_NOTHROW(Camera(""));
+  for (const char *asking : {"1", "gpu"}) {
+    ::setenv("PMDSIM_VALIDATE", asking, 1);
+    CHECK_THROWS_WITH(Camera(""), Catch::Contains("VK_LAYER_KHRONOS_validation is not installed"));
+  }
+  for (const char *other : {"0", "", "on", "GPU"}) {
+    ::setenv("PMDSIM_VALIDATE", other, 1);
+    CHECK_NOTHROW(Camera(""));
+  }
   ::unsetenv("PMDSIM_VALIDATE");
   CHECK_NOTHROW(Camera(""));
   ::unsetenv("VK_LAYER_PATH");

@@ -108,8 +108,8 @@ TEST_CASE("a wall that moves away reads what the closed form says") {
       const double range_m = start_m + speed_m_s * tap_time_s(sensor, 0.0, i, k);
       const double reference_rad = 2.0 * std::numbers::pi * k / sensor.taps;
       const double phase_rad = 2.0 * std::numbers::pi * range_m / sensor.ambiguity_m(i);
-      z += std::polar(2.0 / sensor.taps / (range_m * range_m) * std::cos(phase_rad - reference_rad),
-                      reference_rad);
+      z += 2.0 / sensor.taps / (range_m * range_m) * std::cos(phase_rad - reference_rad) *
+           std::polar(1.0, reference_rad);
     }
     const double phase_rad = std::arg(z) + (std::arg(z) < 0.0 ? 2.0 * std::numbers::pi : 0.0);
     const double distance_m = sensor.ambiguity_m(i) * phase_rad / (2.0 * std::numbers::pi);

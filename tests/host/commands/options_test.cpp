@@ -157,3 +157,18 @@ TEST_CASE("directories are merged into another, or one's manifest is made again"
   CHECK(several.capture.frames->end == 4);
   CHECK_THROWS_WITH(parsed({"merge", "a", "b"}), "merge: expected -o beside 2 directories");
 }
+
+TEST_CASE("Arguments of any length and any bytes are refused in a line of UTF-8") {
+  const std::string long_word(200'000,
+                              'a'); // over which a regular expression would recurse until the stack ends
+  CHECK(refusal({"--mode", long_word.c_str()})
+            .starts_with("--mode: expected exact, reduced, auto, found \"aaa"));
+  CHECK(refusal({"--format", long_word.c_str()}).starts_with("--format: expected "));
+  CHECK(refusal({"--mode", "a not in {b}"}).find("found \"a not in {b}\"") != std::string::npos);
+  CHECK(refusal({"--a\x15\xff"}).starts_with("render has no option --a??"));
+  CHECK(refusal({"-mode\n=auto"}).starts_with("render has no option -mode?, did you mean --mode? (see "));
+  const auto bench = [&](const char *value) { parsed({"bench", "--suite", "real", "--triangles", value}); };
+  CHECK_THROWS_WITH(bench("many"),
+                    "--triangles: Value many not in range 1000 to 10000000 (see pmdsim bench --help)");
+  CHECK_THROWS_AS(bench(long_word.c_str()), Error);
+}

@@ -56,7 +56,8 @@ nlohmann::json manifest_of(const RunHead &run, const std::vector<FrameRecord> &f
     OutputSet files(folder.path());
     for (const auto &[name, bytes] : frame.outputs)
       files.add(name, [size = bytes](OutputFile &file) { file.write(std::string(size, ' ')); });
-    run_folder.publish(files, record_json("hash", {frame}));
+    RunFolder::add_record(files, record_json("hash", {frame}));
+    run_folder.publish(files, frame.frame);
   }
   CHECK(run_folder.write_manifest() == frames.size());
   return nlohmann::json::parse(content_of(folder.path() / "manifest.json"));

@@ -97,7 +97,7 @@ TEST_CASE("what is obsolete goes, but not before it is known that the set can be
   const auto publish = [&](const std::string &obsolete) {
     OutputSet outputs(temporary.path());
     outputs.add("one.txt", write_hello);
-    outputs.publish({obsolete});
+    outputs.give_names({obsolete});
   };
   output_error([&] { publish("old.txt"); });
   CHECK(content_of(temporary.path() / "old.txt") == "old");
@@ -112,7 +112,7 @@ TEST_CASE("a directory in the place of what is obsolete is told before anything 
   std::filesystem::create_directory(temporary.path() / "old.txt");
   OutputSet outputs(temporary.path());
   outputs.add("one.txt", write_hello);
-  CHECK(output_error([&] { outputs.publish({"old.txt"}); }) ==
+  CHECK(output_error([&] { outputs.give_names({"old.txt"}); }) ==
         (temporary.path() / "old.txt").string() + ": cannot be written: Is a directory");
   CHECK(names_in(temporary.path()).count("one.txt") == 0);
 }

@@ -43,7 +43,8 @@ struct Folder {
     const std::string name = fmt::format("pmd_{:04}.txt", frame), text = fmt::format("{}{}", frame, held);
     files.add(name, [&](OutputFile &file) { file.write(text); });
     record.outputs.push_back({name, text.size()});
-    folder.publish(files, record_json(folder.run().hash, {record}));
+    RunFolder::add_record(files, record_json(folder.run().hash, {record}));
+    folder.publish(files, frame);
   }
 
   std::vector<int> listed() const {
@@ -259,14 +260,25 @@ TEST_CASE("where frames are to keep their promise, those that do not are not who
   CHECK_FALSE(strict.whole(3));
 }
 
-TEST_CASE("a link to nothing in the place of the run's file is refused, not waited for") {
+TEST_CASE("a link in the place of the run's file is replaced, and what it leads to stays") {
+  const pmdsim::test::TemporaryFolder elsewhere;
+  const auto victim = elsewhere.write("victim", "its bytes");
   const Folder folder;
   std::filesystem::create_directory(folder.path);
-  std::filesystem::create_symlink("nothing", folder.path / "run.json");
-  const Error refused = error_of([&] { folder.entered(); });
-  CHECK(refused.code() == ExitCode::output);
-  CHECK(refused.what() ==
-        (folder.path / "run.json").string() + ": cannot be written: it is a symbolic link to nothing");
+  for (const std::filesystem::path &to :
+       {std::filesystem::path("nothing"), victim, std::filesystem::path(".")})
+    for (const char *name : {"run.json", "manifest.json", "0001.record.json"}) {
+      std::filesystem::remove(folder.path / name);
+      std::filesystem::create_symlink(to, folder.path / name);
+      RunFolder run = folder.entered();
+      folder.make(run, 1);
+      run.write_manifest();
+      for (const char *written : {"run.json", "manifest.json", "0001.record.json"})
+        CHECK(std::filesystem::symlink_status(folder.path / written).type() ==
+              std::filesystem::file_type::regular);
+    }
+  CHECK(std::filesystem::file_size(victim) == 9);
+  CHECK_FALSE(std::filesystem::exists(elsewhere.path() / "nothing"));
 }
 
 TEST_CASE("waiting for another's manifest can be interrupted, and is not long where a run ends early") {

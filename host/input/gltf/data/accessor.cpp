@@ -1,5 +1,7 @@
 #include "host/input/gltf/data/accessor.h"
 
+#include "host/input/file/memory_request.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -193,6 +195,7 @@ std::vector<glm::dvec4> read_vectors(const tinygltf::Model &model, std::size_t i
     throw input_error(place / "type",
                       fmt::format("expected {}", names.at(static_cast<std::size_t>(components) - 1)));
   const Elements elements(model, accessor, place);
+  require_memory(elements.count() * sizeof(glm::dvec4), place, "its elements");
   std::vector<glm::dvec4> vectors(elements.count(), glm::dvec4(0.0));
   for (std::size_t i = 0; i < elements.count(); ++i)
     for (int c = 0; c < components; ++c)
@@ -209,6 +212,7 @@ std::vector<glm::dmat4> read_matrices(const tinygltf::Model &model, std::size_t 
   if (accessor.count < count)
     throw input_error(place / "count", fmt::format("expected at least {}, found {}", count, accessor.count));
   const Elements elements(model, accessor, place);
+  require_memory(count * sizeof(glm::dmat4), place, "its elements");
   std::vector<glm::dmat4> matrices(count);
   for (std::size_t i = 0; i < count; ++i)
     for (int c = 0; c < 16; ++c)
@@ -230,6 +234,7 @@ std::vector<std::uint32_t> read_indices(const tinygltf::Model &model, std::size_
   const auto type = std::ranges::find(types, accessor.componentType, &Type::first);
   if (type == types.end())
     throw input_error(place / "componentType", "expected 5121, 5123 or 5125 for indices");
+  require_memory(elements.count() * sizeof(std::uint32_t), place, "its elements");
   std::vector<std::uint32_t> indices(elements.count());
   for (std::size_t i = 0; i < elements.count(); ++i) {
     indices[i] = static_cast<std::uint32_t>(elements.component(i, 0));

@@ -1,6 +1,7 @@
 #include "host/input/gltf/data/buffers.h"
 
 #include "host/input/file/input_file.h"
+#include "host/input/file/memory_request.h"
 #include "host/input/gltf/data/meshopt.h"
 
 #include <algorithm>
@@ -51,6 +52,20 @@ bool lies_inside(const fs::path &folder, const fs::path &file) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
+// `name` is what the URI at `place` says, decoded.
+void refuse_outside(const fs::path &name, const std::string &uri, const Place &place) {
+  const fs::path folder = place.file.has_parent_path() ? place.file.parent_path() : ".";
+  std::error_code unresolved;
+  const fs::path inside = fs::weakly_canonical(folder, unresolved);
+  const fs::path file = unresolved ? fs::path{} : fs::weakly_canonical(folder / name, unresolved);
+  if (unresolved)
+    throw input_error(place, fmt::format("{}: {}", in_quotes(uri), unresolved.message()));
+  if (name.is_absolute() || !lies_inside(inside, file))
+    throw input_error(place, fmt::format("{} lies outside the scene's folder; put it there, or allow it "
+                                         "({}) where you trust the scene",
+                                         in_quotes(uri), allow_outside_words));
+}
+
 Bytes decoded_data_uri(const std::string &uri, std::size_t length_bytes, const Place &place) {
   Bytes bytes;
   std::string media_type;
@@ -82,27 +97,21 @@ Bytes read_buffer(const GltfDocument &document, const fs::path &file, std::size_
     return front_of_chunk(document.binary_chunk, length_bytes, place);
   if (uri.starts_with("data:"))
     return decoded_data_uri(uri, length_bytes, place / "uri");
-  const std::string bytes =
-      read_front_of_regular_file(file_beside(uri, place / "uri"), length_bytes, place / "uri");
+  const std::string bytes = read_front_of_regular_file(file_of_uri(uri, document.files, place / "uri"),
+                                                       length_bytes, place / "uri");
   return {bytes.begin(), bytes.end()};
 }
 
 } // namespace
 
-fs::path file_beside(const std::string &uri, const Place &place) {
+fs::path file_of_uri(const std::string &uri, UriFiles files, const Place &place) {
   if (has_scheme(uri))
     throw input_error(place, "expected a relative file name or a data: URI, found " + in_quotes(uri));
   const std::optional<std::string> name = percent_decoded(uri);
   if (!name)
     throw input_error(place, "expected a percent-encoded relative path, found " + in_quotes(uri));
-  const fs::path folder = place.file.has_parent_path() ? place.file.parent_path() : ".";
-  std::error_code unresolved;
-  const fs::path inside = fs::weakly_canonical(folder, unresolved);
-  const fs::path file = unresolved ? fs::path{} : fs::weakly_canonical(folder / *name, unresolved);
-  if (unresolved)
-    throw input_error(place, fmt::format("{}: {}", in_quotes(uri), unresolved.message()));
-  if (fs::path(*name).is_absolute() || !lies_inside(inside, file))
-    throw input_error(place, fmt::format("{} lies outside the scene's folder", in_quotes(uri)));
+  if (files == UriFiles::beside)
+    refuse_outside(*name, uri, place);
   return place.file.parent_path() / *name; // as messages and manifests name it
 }
 
@@ -122,6 +131,7 @@ std::vector<Bytes> read_gltf_buffers(const GltfDocument &document, const fs::pat
       throw input_error(Place{file} / "buffers" / i / "byteLength",
                         fmt::format("expected at most {} bytes in all buffers", max_gltf_file_bytes));
     left_bytes -= length_bytes;
+    require_memory(length_bytes, Place{file} / "buffers" / i / "byteLength", "the buffer");
     result[i] = read_buffer(document, file, i);
   }
   return result;

@@ -1,5 +1,6 @@
 #include "host/input/gltf/data/meshopt.h"
 
+#include "host/input/file/memory_request.h"
 #include "host/input/gltf/extensions.h"
 
 #include <cstdint>
@@ -14,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-const std::string meshopt_extension = "EXT_meshopt_compression";
+constexpr const char *meshopt_extension = "EXT_meshopt_compression";
 
 // The extension's part of a bufferView or buffer.
 const json *meshopt_part(const json &object) { return extension_part(object, meshopt_extension); }
@@ -103,6 +104,7 @@ Bytes decode(const CompressedView &view, const Bytes &source) {
   static const std::map<std::string, Filter> filters{{"OCTAHEDRAL", meshopt_decodeFilterOct},
                                                      {"QUATERNION", meshopt_decodeFilterQuat},
                                                      {"EXPONENTIAL", meshopt_decodeFilterExp}};
+  require_memory(view.decoded_bytes(), view.place, "what it decodes to");
   Bytes decoded(view.decoded_bytes());
   if (decoders.at(view.mode)(decoded.data(), view.count, view.stride_bytes, source.data() + view.byte_offset,
                              view.byte_length) != 0)

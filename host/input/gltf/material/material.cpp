@@ -77,9 +77,9 @@ Surface surface_of(const Description &stated, Paint paint, double least_alpha, b
 } // namespace
 
 GltfMaterials::GltfMaterials(const json &document, std::shared_ptr<const tinygltf::Model> model,
-                             const std::filesystem::path &file)
+                             const std::filesystem::path &file, UriFiles files)
     : materials_(document.value("materials", json::array())), root_{file},
-      textures_(document, std::move(model), file) {}
+      textures_(document, std::move(model), file, files) {}
 
 // Returns the least alpha that the texture has.
 double GltfMaterials::add_texture(const json &info, Paint &paint, GltfMaterial &result) {

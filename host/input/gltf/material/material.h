@@ -24,7 +24,7 @@ class GltfMaterials {
 public:
   // As GltfTextures.
   GltfMaterials(const nlohmann::json &document, std::shared_ptr<const tinygltf::Model> model,
-                const std::filesystem::path &file);
+                const std::filesystem::path &file, UriFiles files = UriFiles::beside);
 
   // /materials/`material`, which exists; -1 is glTF's default, white and single-sided. `has_colours`: whether
   // the primitive has vertex colours. Reflectivity is `extras.pmdsim_reflectivity` if given, else the

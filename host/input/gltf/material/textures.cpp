@@ -1,6 +1,7 @@
 #include "host/input/gltf/material/textures.h"
 
 #include "host/input/file/input_file.h"
+#include "host/input/file/memory_request.h"
 #include "host/input/gltf/data/accessor.h"
 #include "host/input/gltf/data/buffers.h"
 #include "host/input/gltf/document.h"
@@ -29,9 +30,9 @@ std::size_t source_of(const json &texture, const Place &place) {
                                        in_quotes(extensions.begin().key())));
 }
 
-Bytes bytes_of_uri(const std::string &uri, const Place &place) {
+Bytes bytes_of_uri(const std::string &uri, UriFiles files, const Place &place) {
   if (!uri.starts_with("data:")) {
-    const std::string bytes = read_regular_file(file_beside(uri, place), max_gltf_file_bytes, place);
+    const std::string bytes = read_regular_file(file_of_uri(uri, files, place), max_gltf_file_bytes, place);
     return {bytes.begin(), bytes.end()};
   }
   Bytes bytes;
@@ -52,10 +53,10 @@ Wrap wrap_of(const json &sampler, const char *key) {
 } // namespace
 
 GltfTextures::GltfTextures(const json &document, std::shared_ptr<const tinygltf::Model> model,
-                           std::filesystem::path file)
+                           std::filesystem::path file, UriFiles files)
     : textures_(document.value("textures", json::array())), images_(document.value("images", json::array())),
-      samplers_(document.value("samplers", json::array())), model_(std::move(model)), root_{std::move(file)} {
-}
+      samplers_(document.value("samplers", json::array())), model_(std::move(model)), root_{std::move(file)},
+      files_(files) {}
 
 float GltfTextures::add(std::size_t index, Paint &paint) {
   const json &texture = textures_.at(index);
@@ -84,10 +85,12 @@ GltfTextures::Image GltfTextures::decoded(std::size_t index) {
   Bytes own;
   std::span<const unsigned char> bytes;
   if (image.contains("uri"))
-    bytes = own = bytes_of_uri(image.at("uri").get<std::string>(), place / "uri");
+    bytes = own = bytes_of_uri(image.at("uri").get<std::string>(), files_, place / "uri");
   else
     bytes = bytes_of_view(*model_, image.at("bufferView").get<std::size_t>(), root_);
-  auto texels = std::make_shared<const Texture>(linear_texture(decoded_image(bytes, left_texels_, place)));
+  const ImagePixels pixels = decoded_image(bytes, left_texels_, place);
+  require_memory(std::size_t{pixels.size.x} * pixels.size.y * sizeof(glm::vec4), place, "its light");
+  auto texels = std::make_shared<const Texture>(linear_texture(pixels));
   left_texels_ -= texels->texels.size();
   const float least_alpha = std::ranges::min(texels->texels, {}, &glm::vec4::a).a; // an image has a texel
   return {std::move(texels), least_alpha};

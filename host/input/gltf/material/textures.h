@@ -3,6 +3,7 @@
 
 #include "engine/model/scene.h"
 #include "host/input/file/input_error.h"
+#include "host/input/gltf/document.h"
 
 #include <filesystem>
 #include <map>
@@ -22,7 +23,7 @@ class GltfTextures {
 public:
   // `document` has passed the glTF schema and the check of its references; `model` has its buffers' bytes.
   GltfTextures(const nlohmann::json &document, std::shared_ptr<const tinygltf::Model> model,
-               std::filesystem::path file);
+               std::filesystem::path file, UriFiles files);
 
   // Gives `paint` /textures/`texture`, which exists, as its sampler says. Returns the least alpha of all
   // texels. Throws Error (input).
@@ -40,6 +41,7 @@ private:
   nlohmann::json textures_, images_, samplers_;
   std::shared_ptr<const tinygltf::Model> model_;
   Place root_;
+  UriFiles files_;
   std::map<std::size_t, Image> decoded_;
   std::size_t left_texels_ = max_file_texels;
 };

@@ -1,5 +1,6 @@
 #include "host/input/gltf/mesh/mesh.h"
 
+#include "host/input/file/memory_request.h"
 #include "host/input/gltf/data/accessor.h"
 #include "host/input/gltf/mesh/attributes.h"
 #include "host/input/schema/limits.h"
@@ -175,6 +176,8 @@ void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &d
     throw input_error(
         place, fmt::format("the scene has more than {} vertices, triangles or points", max_scene_vertices));
 
+  // Positions are there twice until they are the scene's, whose lists may grow to twice what they hold.
+  require_memory(count * 4 * sizeof(glm::dvec3) + indices.size() * sizeof(Triangle), place, "its geometry");
   const std::vector<glm::dvec3> world = world_positions(positions, placement, place);
   const auto first_vertex = static_cast<std::uint32_t>(before);
   if (data.mode == TINYGLTF_MODE_POINTS)

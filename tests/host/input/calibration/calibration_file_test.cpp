@@ -374,3 +374,17 @@ TEST_CASE("What OpenCV writes as XML") {
   CHECK_THAT(calibration_error_of(nest + "</opencv_storage>"),
              Contains("expected elements nested at most 32 deep"));
 }
+
+TEST_CASE("XML is a list or a map, and no more values than YAML has") {
+  const auto error_of = [](const std::string &content) {
+    return calibration_error_of("<opencv_storage><image_width>" + content +
+                                "</image_width></opencv_storage>");
+  };
+  const std::string both = "expected elements of a list, <_>, or others in <image_width>, found both";
+  CHECK_THAT(error_of("<a>1</a><_>2</_>"), EndsWith(both));
+  CHECK_THAT(error_of("<_>2</_><a>1</a>"), EndsWith(both));
+  std::string many;
+  for (int i = 0; i < 250'001; ++i)
+    many += "1 ";
+  CHECK_THAT(error_of(many), EndsWith("expected at most 250000 values"));
+}

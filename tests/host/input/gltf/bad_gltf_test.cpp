@@ -1,6 +1,7 @@
 #include "host/input/gltf/loader.h"
 #include "tests/host/input/file/input_error_of.h"
 #include "tests/host/input/gltf/builder.h"
+#include "tests/host/input/image/image_bytes.h"
 #include "tests/support/temporary_folder.h"
 
 #include <cmath>
@@ -133,16 +134,44 @@ TEST_CASE("Values of a wrong type are not dropped") {
 
 TEST_CASE("Buffers that are not in the scene's folder") {
   const SceneFile bench;
-  CHECK_THAT(bench.error_of_uri("../../../../../../../etc/passwd"),
-             Contains("/buffers/0/uri") && EndsWith("lies outside the scene's folder"));
-  CHECK_THAT(bench.error_of_uri("%2e%2e/%2E%2E/etc/passwd"), EndsWith("lies outside the scene's folder"));
-  CHECK_THAT(bench.error_of_uri("/etc/passwd"), EndsWith("lies outside the scene's folder"));
-  CHECK_THAT(bench.error_of_uri((bench.folder.path() / "own.bin").string()),
-             EndsWith("lies outside the scene's folder"));
+  const auto outside = [](const std::string &uri) {
+    return EndsWith("/buffers/0/uri: \"" + uri +
+                    "\" lies outside the scene's folder; put it there, or allow it (--allow-outside, "
+                    "allow_outside in Python) where you trust the scene");
+  };
   std::filesystem::create_symlink("/etc", bench.folder.path() / "link");
-  CHECK_THAT(bench.error_of_uri("link/passwd"), EndsWith("lies outside the scene's folder"));
+  std::filesystem::create_symlink("/etc/passwd", bench.folder.path() / "words.bin");
+  for (const std::string uri :
+       {"../../../../../../../etc/passwd", "%2e%2e/%2E%2E/etc/passwd", "..%2f..%2Fetc/passwd", "/etc/passwd",
+        "%2fetc/passwd", "link/passwd", "link/../etc/passwd", "words.bin", "./words.bin"})
+    CHECK_THAT(bench.error_of_uri(uri), outside(uri));
+  const std::string own = (bench.folder.path() / "own.bin").string();
+  CHECK_THAT(bench.error_of_uri(own), outside(own));
   std::filesystem::create_symlink("loop", bench.folder.path() / "loop");
   CHECK_THAT(bench.error_of_uri("loop"), Contains("/buffers/0/uri"));
+}
+
+TEST_CASE("Buffers and images outside of the scene's folder are read where that is allowed") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "inside");
+  folder.write("own.bin", bytes_of(triangle_positions()));
+  folder.write("white.png", png_bytes({1, 1, 8, 2, {255, 255, 255}}));
+  json gltf = one_triangle();
+  gltf["buffers"][0]["uri"] = "../own.bin";
+  gltf["images"] = {{{"uri", "../white.png"}}};
+  gltf["textures"] = {{{"source", 0}}};
+  gltf["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  json &primitive = gltf["meshes"][0]["primitives"][0];
+  primitive["material"] = 0;
+  primitive["attributes"]["TEXCOORD_0"] =
+      add_accessor(gltf, bytes_of(std::vector<float>(6, 0.5f)), 5126, 3, "VEC2");
+  const auto scene = folder.write("inside/scene.gltf", gltf.dump());
+  CHECK(load_gltf(scene, Place{scene}, UriFiles::anywhere).at(0).scene.triangles.size() == 1);
+  CHECK_THAT(input_error_of([&] { load_gltf(scene, Place{scene}); }), Contains("/buffers/0/uri"));
+  folder.write("inside/own.bin", bytes_of(triangle_positions()));
+  gltf["buffers"][0]["uri"] = "own.bin";
+  folder.write("inside/scene.gltf", gltf.dump());
+  CHECK_THAT(input_error_of([&] { load_gltf(scene, Place{scene}).at(0); }), Contains("/images/0/uri"));
 }
 
 TEST_CASE("Buffers that are no files, or not those stated") {

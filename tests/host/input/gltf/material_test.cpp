@@ -324,7 +324,7 @@ TEST_CASE("Images that no used material needs are not opened") {
   CHECK_NOTHROW(materials.material_of(1, false));
   CHECK_NOTHROW(materials.material_of(-1, true));
   CHECK_THAT(input_error_of([&] { materials.material_of(0, false); }),
-             EndsWith("/images/0/uri: \"../../../etc/passwd\" lies outside the scene's folder"));
+             Contains("/images/0/uri: \"../../../etc/passwd\" lies outside the scene's folder"));
 }
 
 TEST_CASE("All images of a file together have a limit") {

@@ -1,0 +1,13 @@
+// Images of numbers to correct, whatever holds them: NPY, NPZ, EXR, HDF5, PNG or text.
+
+#include "tests/fuzz/target.h"
+
+#include "host/input/array/image_array.h"
+
+using namespace pmdsim;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+  const std::filesystem::path file = fuzz::write_file("image.bin", fuzz::text_of(data, size));
+  fuzz::accepts([&] { read_image_arrays(file, [](std::string_view name) { return name != "coverage"; }); });
+  return 0;
+}

@@ -1,0 +1,25 @@
+// A scene's file, glTF or GLB, with all that lies in it: buffers, images, animations and skins.
+
+#include "tests/fuzz/target.h"
+
+#include "host/input/gltf/loader.h"
+
+using namespace pmdsim;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+  const std::filesystem::path file = fuzz::write_file("scene.glb", fuzz::text_of(data, size));
+  fuzz::accepts([&] {
+    const GltfFile gltf = load_gltf(file, Place{"setup.json"} / "scene");
+    for (const Warning &warning : gltf.warnings({"camera"})) {
+      fuzz::check_line(warning.text);
+      fuzz::check_line(warning.place);
+    }
+    for (const double time_s : {0.0, 0.25, -3.0, 1e9})
+      fuzz::accepts([&] {
+        const GltfScene scene = gltf.at(time_s);
+        if (!scene.nodes.empty())
+          static_cast<void>(gltf.at(time_s, {{scene.nodes.front().name, {}, Place{"setup.json"} / "nodes"}}));
+      });
+  });
+  return 0;
+}

@@ -1,0 +1,13 @@
+// Frames as HDF5, from memory.
+
+#include "tests/fuzz/target.h"
+
+#include "host/input/frame/frame_bytes.h"
+
+using namespace pmdsim;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+  static const std::filesystem::path file = "frame.h5";
+  fuzz::accepts([&] { read_h5({file, std::string(fuzz::text_of(data, size))}); });
+  return 0;
+}
