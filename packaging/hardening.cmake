@@ -11,12 +11,13 @@ foreach(flag -fstack-protector-strong -fstack-clash-protection -fcf-protection)
   string(MAKE_C_IDENTIFIER "takes${flag}" takes)
   check_cxx_compiler_flag(${flag} ${takes}) # the last exists on x86 alone
   if(${takes})
-    target_compile_options(pmdsim_flags INTERFACE ${flag})
+    list(APPEND code ${flag})
   endif()
 endforeach()
 # Without optimization there is nothing to fortify.
-target_compile_options(pmdsim_flags INTERFACE $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>)
-target_compile_definitions(pmdsim_flags INTERFACE _GLIBCXX_ASSERTIONS)
+list(APPEND code $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3> -D_GLIBCXX_ASSERTIONS)
+# The kernels see no file: who calls them has checked every number, and there it costs up to a quarter of a frame.
+target_compile_options(pmdsim_flags INTERFACE "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:PMDSIM_KERNEL>>>:${code}>")
 target_link_options(pmdsim_flags INTERFACE LINKER:-z,relro,-z,now LINKER:-z,noexecstack)
 # Programs at an address that changes with every start; the library is so in any case.
 include(CheckPIESupported)

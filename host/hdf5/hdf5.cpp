@@ -23,16 +23,20 @@ Hdf5Turn::~Hdf5Turn() {
   H5Eset_auto2(H5E_DEFAULT, print_, print_to_);
 }
 
-std::string hdf5_reason() {
-  std::string reason;
+Hdf5Reason hdf5_reason() {
+  Hdf5Reason reason;
   const auto keep = [](unsigned, const H5E_error2_t *error, void *to) -> herr_t {
+    auto &kept = *static_cast<Hdf5Reason *>(to);
     if (error->desc)
-      *static_cast<std::string *>(to) = error->desc;
+      kept.text = error->desc;
+    kept.lacks_memory =
+        kept.lacks_memory || (error->maj_num == H5E_RESOURCE && error->min_num == H5E_NOSPACE);
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep, &reason); // the last one is the innermost
-  std::ranges::replace(reason, '\n', ' ');
-  return reason.empty() ? "HDF5 gives no reason" : "HDF5: " + reason;
+  std::ranges::replace(reason.text, '\n', ' ');
+  reason.text = reason.text.empty() ? "HDF5 gives no reason" : "HDF5: " + reason.text;
+  return reason;
 }
 
 } // namespace pmdsim

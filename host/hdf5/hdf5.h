@@ -23,8 +23,12 @@ private:
   void *print_to_ = nullptr;
 };
 
-// What HDF5 says of this thread's last call that failed: the innermost reason, in one line.
-std::string hdf5_reason();
+// What HDF5 says of this thread's last call that failed.
+struct Hdf5Reason {
+  std::string text; // the innermost reason, in one line
+  bool lacks_memory = false;
+};
+Hdf5Reason hdf5_reason();
 
 // Something of HDF5's that is open, and how it is closed. Below 0: nothing is.
 class Hdf5Handle {

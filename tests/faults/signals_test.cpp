@@ -27,8 +27,11 @@ void check_signals(int signals, unsigned seed) {
   for (int i = 0; i < signals; ++i) {
     const int kind = kinds[random() % kinds.size()];
     INFO("signal " << kind << ", number " << i << " of seed " << seed);
-    RunningPmdsim program(sequence.arguments(out, i % 8 == 0 ? std::vector<std::string>{}
-                                                             : std::vector<std::string>{"--resume"}));
+    const bool begins = i % 8 == 0;
+    if (begins)
+      std::filesystem::remove_all(out);
+    RunningPmdsim program(
+        sequence.arguments(out, begins ? std::vector<std::string>{} : std::vector<std::string>{"--resume"}));
     std::this_thread::sleep_for(time * share(random));
     program.send(kind);
     const Run run = program.wait();

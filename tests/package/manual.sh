@@ -29,7 +29,7 @@ complete_in_bash() {
 
 check_bash() {
   expect 'a command' 'render ' "$(complete_in_bash pmdsim ren)"
-  expect 'an option' '--max-amplitude-error --max-error ' "$(complete_in_bash pmdsim render room.json --max)"
+  expect 'an option' '--max-amplitude-error --max-error --max-memory ' "$(complete_in_bash pmdsim render room.json --max)"
   expect 'a value' 'exact ' "$(complete_in_bash pmdsim render --mode ex)"
   expect 'a value behind =' 'fp32 fp64 ' "$(complete_in_bash pmdsim bench --precision = fp)"
   expect 'a list' 'exr,npy ' "$(complete_in_bash pmdsim render --format exr,npy)"

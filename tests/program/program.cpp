@@ -9,8 +9,8 @@
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -53,6 +53,16 @@ void redirect(const fs::path &file, int to) {
   ::_exit(126);
 }
 
+// The most memory that a process has had so far, or nothing where it has ended. Its rusage is no measure:
+// that begins with the memory of the test that forked it.
+std::optional<std::int64_t> peak_resident_bytes(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string word; status >> word;)
+    if (std::int64_t kibibytes = 0; word == "VmHWM:" && status >> kibibytes)
+      return kibibytes * 1024;
+  return std::nullopt;
+}
+
 } // namespace
 
 void wait_for(const fs::path &file) {
@@ -80,14 +90,18 @@ void RunningPmdsim::send(int signal) const { ::kill(process_, signal); }
 
 Run RunningPmdsim::wait() {
   int status = 0;
-  rusage usage{};
-  while (::wait4(process_, &status, 0, &usage) < 0)
-    if (errno != EINTR)
-      throw std::runtime_error("wait4 failed");
+  std::int64_t peak_bytes = 0;
+  for (pid_t ended = 0; ended == 0;) {
+    peak_bytes = peak_resident_bytes(process_).value_or(peak_bytes);
+    ended = ::waitpid(process_, &status, WNOHANG);
+    if (ended < 0)
+      throw std::runtime_error("waitpid failed");
+    if (ended == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   process_ = 0;
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          content(streams_.path() / "stdout"), content(streams_.path() / "stderr"),
-          std::int64_t{usage.ru_maxrss} * 1024};
+          content(streams_.path() / "stdout"), content(streams_.path() / "stderr"), peak_bytes};
 }
 
 Run run_pmdsim(const std::vector<std::string> &arguments, const RunOptions &options) {

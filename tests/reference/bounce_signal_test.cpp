@@ -55,7 +55,7 @@ TEST_CASE("any waveform's taps hold what bounces") {
           0.1 * std::abs(z));
     std::complex<double> of_taps;
     for (std::uint32_t k = 0; k < 5; ++k)
-      of_taps += 0.4 * std::polar(of_square.returns[0].taps[k][pixel], full_turn_rad * k / 5);
+      of_taps += 0.4 * of_square.returns[0].taps[k][pixel] * std::polar(1.0, full_turn_rad * k / 5);
     CHECK(std::abs(of_taps - of_square.returns[0].z[pixel]) < 1e-14);
   }
 }

@@ -131,7 +131,7 @@ TEST_CASE("a camera takes from its taps what they hold at its frequency") {
   for (std::size_t pixel = 0; pixel < frame.range_m.size(); pixel += 101) {
     std::complex<double> z = 0;
     for (std::uint32_t k = 0; k < taps; ++k)
-      z += 2.0 / taps * std::polar(found.taps[k][pixel], full_turn_rad * k / taps);
+      z += 2.0 / taps * found.taps[k][pixel] * std::polar(1.0, full_turn_rad * k / taps);
     CHECK(std::abs(z - found.z[pixel]) < 1e-15);
     CHECK(found.amplitude[pixel] == Approx(std::abs(found.z[pixel])).epsilon(1e-15));
     CHECK(std::abs(std::remainder(found.phase_rad[pixel] - std::arg(z), full_turn_rad)) < 1e-14);

@@ -93,7 +93,7 @@ private:
 
   void check(herr_t result) const {
     if (result < 0)
-      throw frame_error(frame_, fmt::format("cannot be read: {}", hdf5_reason()));
+      throw frame_error(frame_, fmt::format("cannot be read: {}", hdf5_reason().text));
   }
 
   // In this file itself. One name is looked up at a time: where HDF5 1.10 lists the names of a damaged

@@ -94,12 +94,12 @@ GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &
   if (!is_glb)
     refuse_other_kinds(*bytes, root);
   const Text text = is_glb ? split_glb(*bytes, root) : Text{*bytes, {}};
-  static const json schema = json::parse(gltf_schema_text);
+  static const DocumentSchema schema(json::parse(gltf_schema_text));
 
   GltfDocument document{parse_json(text.json, file, Comments::refused), std::string(text.binary_chunk)};
   if (!is_glb) // whose lines nobody sees
     root.source = std::make_shared<const JsonSource>(JsonSource{bytes});
-  check_schema(document.json, schema, root);
+  schema.check(document.json, root);
   refuse_other_versions(document.json, root);
   refuse_other_extensions(document.json, root);
   check_references(document.json, root);

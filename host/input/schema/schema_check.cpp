@@ -333,12 +333,17 @@ ordered_json filled(const ordered_json &root, const ordered_json &schema_or_anyo
 
 } // namespace
 
-void check_schema(const json &document, const json &schema_document, const Place &root) {
-  valijson::Schema schema;
-  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
+DocumentSchema::DocumentSchema(json schema)
+    : json_(std::move(schema)), parsed_(std::make_unique<valijson::Schema>()) {
+  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(json_), *parsed_);
+}
+
+DocumentSchema::~DocumentSchema() = default;
+
+void DocumentSchema::check(const json &document, const Place &root) const {
   valijson::ValidationResults failures;
-  if (!valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &failures))
-    throw explained(deepest_failure(failures, document, schema_document, root), schema_document);
+  if (!valijson::Validator().validate(*parsed_, valijson::adapters::NlohmannJsonAdapter(document), &failures))
+    throw explained(deepest_failure(failures, document, json_, root), json_);
 }
 
 std::string expected_value(const json &schema, const json &part) { return expectation(schema, part); }

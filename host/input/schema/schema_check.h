@@ -4,9 +4,14 @@
 
 #include "host/input/file/input_error.h"
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+
+namespace valijson {
+class Schema;
+}
 
 namespace pmdsim {
 
@@ -14,8 +19,18 @@ namespace pmdsim {
 extern const std::string_view setup_schema_text; // a setup file
 extern const std::string_view gltf_schema_text;  // the parts of glTF 2.0 that are read
 
-// A wrong key or value is thrown as Error (input) with its place in the document, which is at `root`.
-void check_schema(const nlohmann::json &document, const nlohmann::json &schema, const Place &root);
+// A schema that is parsed once, however many documents are checked.
+class DocumentSchema {
+public:
+  explicit DocumentSchema(nlohmann::json schema);
+  ~DocumentSchema();
+  // A wrong key or value is thrown as Error (input) with its place in the document, which is at `root`.
+  void check(const nlohmann::json &document, const Place &root) const;
+
+private:
+  nlohmann::json json_;
+  std::unique_ptr<valijson::Schema> parsed_;
+};
 
 // The value that a part of a schema asks for, as errors say it: "an integer from 1 to 16".
 std::string expected_value(const nlohmann::json &schema, const nlohmann::json &part);

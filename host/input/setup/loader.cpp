@@ -57,11 +57,11 @@ json schema_with_scene() {
 }
 
 ordered_json checked_setup(const SetupDocument &source, bool with_scene = true) {
-  static const json any_schema = json::parse(setup_schema_text), scene_schema = schema_with_scene();
+  static const DocumentSchema any_schema(json::parse(setup_schema_text)), scene_schema(schema_with_scene());
   static const ordered_json ordered_schema = ordered_json::parse(setup_schema_text);
   json document = source.json;
   fill_presets(document);
-  check_schema(document, with_scene ? scene_schema : any_schema, source.root());
+  (with_scene ? scene_schema : any_schema).check(document, source.root());
   refuse_second_pattern(document, source.root());
   return with_all_defaults(document, ordered_schema);
 }

@@ -1,11 +1,9 @@
 #include "host/output/files/durable.h"
 
-#include "engine/model/error.h"
+#include "host/output/files/output_file.h"
 
 #include <cerrno>
 #include <fcntl.h>
-#include <fmt/format.h>
-#include <system_error>
 #include <unistd.h>
 
 namespace pmdsim {
@@ -27,8 +25,7 @@ void sync(const std::filesystem::path &directory, int (*until_done)(int)) {
     ::close(descriptor);
   }
   if (error_number != 0 && error_number != EACCES)
-    throw Error(ExitCode::output, fmt::format("{}: cannot be written: {}", opened.string(),
-                                              std::generic_category().message(error_number)));
+    throw write_error(opened, error_number);
 }
 
 } // namespace

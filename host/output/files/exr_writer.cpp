@@ -1,7 +1,7 @@
 #include "host/output/files/channel.h"
 
 #include "engine/model/channel_names.h"
-#include "engine/model/error.h"
+#include "host/output/files/output_file.h"
 #include "host/output/files/zip_block.h"
 
 #include <algorithm>
@@ -110,8 +110,8 @@ private:
     if (failure_)
       std::rethrow_exception(failure_);
     if (result != EXR_ERR_SUCCESS)
-      throw Error(ExitCode::output,
-                  fmt::format("{}: cannot be written: {}", path_, exr_get_default_error_message(result)));
+      throw write_error(path_, exr_get_default_error_message(result),
+                        result == EXR_ERR_OUT_OF_MEMORY ? Lacking::memory : Lacking::other);
   }
 
   std::string path_;

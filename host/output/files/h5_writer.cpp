@@ -3,6 +3,7 @@
 #include "engine/model/error.h"
 #include "host/hdf5/hdf5.h"
 #include "host/output/files/manifest.h"
+#include "host/output/files/output_file.h"
 
 #include <algorithm>
 #include <array>
@@ -157,8 +158,10 @@ public:
   }
 
   void check(herr_t result) const {
-    if (result < 0)
-      throw Error(ExitCode::output, fmt::format("{}: cannot be written: {}", path_, hdf5_reason()));
+    if (result >= 0)
+      return;
+    const Hdf5Reason reason = hdf5_reason();
+    throw write_error(path_, reason.text, reason.lacks_memory ? Lacking::memory : Lacking::other);
   }
 
 private:

@@ -1,9 +1,10 @@
 #include "host/output/files/channel.h"
 
-#include "engine/model/error.h"
+#include "host/output/files/output_file.h"
 
 #include <archive.h>
 #include <archive_entry.h>
+#include <cerrno>
 #include <exception>
 #include <fmt/format.h>
 #include <memory>
@@ -65,8 +66,9 @@ private:
     if (result == ARCHIVE_OK)
       return;
     const char *reason = archive_ ? archive_error_string(archive_.get()) : nullptr;
-    throw Error(ExitCode::output, fmt::format("{}: cannot be written: {}", file_.path().string(),
-                                              reason ? reason : "libarchive gives no reason"));
+    const bool lacks_memory = !archive_ || archive_errno(archive_.get()) == ENOMEM;
+    throw write_error(file_.path(), reason ? reason : "libarchive gives no reason",
+                      lacks_memory ? Lacking::memory : Lacking::other);
   }
 
   OutputFile &file_;

@@ -1,7 +1,5 @@
 #include "host/output/files/output_file.h"
 
-#include "engine/model/error.h"
-
 #include <cerrno>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -20,15 +18,20 @@ constexpr std::size_t many_bytes = std::size_t{1} << 18;
 // back, so that the next ones need no new memory.
 constexpr int uncached = 0x80;
 
-Error write_error(const std::filesystem::path &path, int error_number) {
-  return {ExitCode::output, fmt::format("{}: cannot be written: {}", path.string(),
-                                        std::generic_category().message(error_number))};
-}
-
 constexpr std::string_view temporary_ending = ".partial";
 constexpr std::size_t random_digits = 8;
 
 } // namespace
+
+Error write_error(const std::filesystem::path &path, const std::string &reason, Lacking lacking) {
+  return {lacking == Lacking::memory ? ExitCode::out_of_memory : ExitCode::output,
+          fmt::format("{}: cannot be written: {}", path.string(), reason)};
+}
+
+Error write_error(const std::filesystem::path &path, int error_number) {
+  return write_error(path, std::generic_category().message(error_number),
+                     error_number == ENOMEM ? Lacking::memory : Lacking::other);
+}
 
 std::filesystem::path temporary_name(const std::filesystem::path &path) {
   std::random_device random;

@@ -1,6 +1,8 @@
 #pragma once
 // One file that is written whole or not at all: under a temporary name in the same directory, then renamed.
 
+#include "engine/model/error.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -10,6 +12,13 @@
 #include <string_view>
 
 namespace pmdsim {
+
+enum class Lacking { memory, other };
+
+// Why a file was not written, in one line: Error (out_of_memory) where it lacked memory, Error (output)
+// otherwise.
+Error write_error(const std::filesystem::path &path, const std::string &reason, Lacking lacking);
+Error write_error(const std::filesystem::path &path, int error_number);
 
 // Life: construct, write, close (flushed to the operating system), publish (renamed; an existing file is
 // replaced). The temporary is removed when an OutputFile dies unpublished. Every failure throws Error

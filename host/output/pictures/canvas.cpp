@@ -1,6 +1,6 @@
 #include "host/output/pictures/canvas.h"
 
-#include "engine/model/error.h"
+#include "host/output/files/output_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -197,8 +197,8 @@ void Canvas::write_png(OutputFile &file) const {
   const cairo_status_t status =
       write_surface(surface_.get(), [&](std::string_view bytes) { file.write(bytes); });
   if (status != CAIRO_STATUS_SUCCESS)
-    throw Error(ExitCode::output, fmt::format("{}: cannot be written: {}", file.path().string(),
-                                              cairo_status_to_string(status)));
+    throw write_error(file.path(), cairo_status_to_string(status),
+                      status == CAIRO_STATUS_NO_MEMORY ? Lacking::memory : Lacking::other);
 }
 
 std::string Canvas::png() const {

@@ -1,6 +1,6 @@
 #include "host/output/run/byte_locks.h"
 
-#include "engine/model/error.h"
+#include "host/output/files/output_file.h"
 
 #include <algorithm>
 #include <array>
@@ -99,8 +99,7 @@ void ByteLocks::write(std::string_view text, const std::filesystem::path &path) 
     if (count < 0 && errno == EINTR)
       continue;
     if (count <= 0)
-      throw Error(ExitCode::output, fmt::format("{}: cannot be written: {}", path.string(),
-                                                std::generic_category().message(errno)));
+      throw write_error(path, errno);
     text.remove_prefix(static_cast<std::size_t>(count));
   }
 }

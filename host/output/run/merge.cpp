@@ -165,7 +165,7 @@ bool bring(const fs::path &from, const fs::path &to) {
     fs::rename(temporary, to, error);
   ::unlink(temporary.c_str()); // where both are links to one file, renaming leaves it
   if (error)
-    throw Error(ExitCode::output, fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+    throw write_error(to, error.value());
   return linked;
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/model/error.h"
 #include "host/output/files/frame_warnings.h"
+#include "host/output/files/output_file.h"
 #include "host/output/run/run_json.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <regex>
-#include <system_error>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -28,11 +28,6 @@ constexpr std::uint64_t first_frame = 16; // and those after it: that frame is b
 constexpr auto waiting_time = std::chrono::milliseconds(10);
 constexpr int last_tries = 300; // to write a manifest when a run ends early
 
-Error unwritable(const fs::path &path, int error_number) {
-  return {ExitCode::output, fmt::format("{}: cannot be written: {}", path.string(),
-                                        std::generic_category().message(error_number))};
-}
-
 // Removes a file that is to have gone by the end of a scope.
 struct Removed {
   fs::path path;
@@ -47,7 +42,7 @@ std::optional<ByteLocks> opened(const fs::path &file) {
   if (errno == ELOOP)
     remove_file(file);
   else if (errno != ENOENT)
-    throw unwritable(file, errno);
+    throw write_error(file, errno);
   return std::nullopt;
 }
 
@@ -63,7 +58,7 @@ bool give_name(const ByteLocks &file, const fs::path &temporary, const fs::path 
       return false;
   }
   if (::rename(temporary.c_str(), name.c_str()) != 0)
-    throw unwritable(name, errno);
+    throw write_error(name, errno);
   return true;
 }
 
@@ -153,7 +148,7 @@ std::optional<ByteLocks> RunFolder::new_run_file(bool replacing) const {
   const fs::path name = path() / run_file_name, temporary = temporary_name(name);
   const int descriptor = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0)
-    throw unwritable(name, errno);
+    throw write_error(name, errno);
   ByteLocks file(descriptor);
   const Removed removed{temporary};
   file.write(run_file_text(run_, this_process()), name);
