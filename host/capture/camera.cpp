@@ -8,6 +8,7 @@
 #include "host/capture/exposure.h"
 #include "host/capture/progress.h"
 #include "host/memory/byte_count.h"
+#include "host/memory/machine_memory.h"
 #include "host/memory/memory_limit.h"
 
 #include <algorithm>
@@ -74,7 +75,10 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   set_extras(extras, options);
   // The program never changes its environment any more.
   options.validation = validation_of(std::getenv("PMDSIM_VALIDATE")); // NOLINT(concurrency-mt-unsafe)
+  const std::uint64_t taken_before = taken_memory();
   simulator_.emplace(options);
+  const std::uint64_t taken = taken_memory();
+  granted_bytes_ = std::min(taken - std::min(taken, taken_before), bytes_of_device);
   device_ = simulator_->device().name;
   driver_ = simulator_->device().driver;
 }

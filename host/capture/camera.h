@@ -89,7 +89,7 @@ private:
   Extras extras_;
   Sensor sensor_; // that is prepared
   std::uint32_t diode_count_ = 0;
-  std::uint64_t granted_bytes_ = 0; // for the frames before
+  std::uint64_t granted_bytes_ = 0; // for the device and the frames before
   std::string wanted_, device_, driver_;
 };
 

@@ -119,7 +119,7 @@ ordered_json memory_json(const MemoryFindings &findings) {
 }
 
 std::string memory_text(const MemoryFindings &findings) {
-  return fmt::format("about {}: {} for the setup, the rest for {}",
+  return fmt::format("about {}: {} for the setup, {}",
                      byte_text(findings.of_setup + findings.of_frame.bytes()), byte_text(findings.of_setup),
                      memory_text(findings.of_frame));
 }

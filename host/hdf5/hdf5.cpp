@@ -35,7 +35,9 @@ Hdf5Reason hdf5_reason() {
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep, &reason); // the last one is the innermost
   std::ranges::replace(reason.text, '\n', ' ');
-  reason.text = reason.text.empty() ? "HDF5 gives no reason" : "HDF5: " + reason.text;
+  if (reason.text.empty()) // it has no memory for one
+    return {"HDF5 gives no reason", true};
+  reason.text.insert(0, "HDF5: ");
   return reason;
 }
 

@@ -11,7 +11,6 @@ namespace pmdsim {
 namespace {
 
 // Bytes as they were measured with lavapipe on x86-64 (tests/whole/extremes/memory_test.cpp compares).
-constexpr std::uint64_t device_bytes = 50'000'000;    // the driver, its compiled passes and its threads
 constexpr std::uint64_t writing_bytes = 50'000'000;   // pictures and what is compressed, of any frame
 constexpr std::uint64_t reference_bytes = 20'000'000; // Embree and its threads
 constexpr std::uint64_t bytes_of_shape = 150, bytes_of_vertex = 60; // in all tables of the passes
@@ -112,7 +111,8 @@ MemoryForecast forecast_memory(const FrameToForecast &frame) {
         pixels * bytes_of_reference_pixel * frame.sensor.modulation_hz.size());
   } else {
     const bool is_apart = frame.by == MeasuredBy::device_apart;
-    add(forecast.parts, "the device's passes", device_bytes + diodes_of(frame.illuminators) * bytes_of_diode);
+    add(forecast.parts, "the device's passes",
+        bytes_of_device + diodes_of(frame.illuminators) * bytes_of_diode);
     add(forecast.parts, "the scene on the device", scene_bytes(frame, is_lit) / (is_apart ? 2 : 1));
     add(forecast.parts, "a strip of samples", is_apart ? 0 : strip_bytes(frame, is_lit));
   }
@@ -142,9 +142,9 @@ Error lacking_memory(const Sensor &sensor, const MemoryForecast &forecast, const
 std::string memory_text(const MemoryForecast &forecast) {
   std::vector<MemoryPart> parts = forecast.parts;
   std::ranges::stable_sort(parts, std::ranges::greater(), &MemoryPart::bytes);
-  std::string text = byte_text(forecast.bytes());
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    text += fmt::format("{} {} for {}", i == 0 ? ":" : ",", byte_text(parts[i].bytes), parts[i].what);
+  std::string text;
+  for (const MemoryPart &part : parts)
+    text += fmt::format("{}{} for {}", text.empty() ? "" : ", ", byte_text(part.bytes), part.what);
   return text;
 }
 

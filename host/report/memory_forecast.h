@@ -46,11 +46,14 @@ struct FrameToForecast {
   bool moves = false;                  // the next instant is computed while one is measured
 };
 
+// The part of every forecast for a device that its driver, its compiled passes and its threads take, once.
+inline constexpr std::uint64_t bytes_of_device = 50'000'000;
+
 // Of the host's memory, at the peak of a frame's measurement. Tests compare it with the peaks of setups of
 // many kinds, for which it is right within a factor of 2, and not much too low.
 MemoryForecast forecast_memory(const FrameToForecast &frame);
 
-// "640 MB: 310 MB for the scene on the device, 200 MB for ...", the largest first.
+// "310 MB for the scene on the device, 200 MB for ...", the largest first.
 std::string memory_text(const MemoryForecast &forecast);
 
 // "a frame of the sensor tof NEEDS", what of it takes the most, and what can be done about it.
