@@ -62,7 +62,7 @@ std::uint64_t strip_bytes(const FrameToForecast &frame, bool is_lit) {
                                   (is_lit ? bytes_of_lit_sample : 0);
   const std::uint64_t sums =
       keeps_depths(sensor) ? 0 : std::min(samples * sums_of(sensor) * bytes_of_sum, most_of_buffer);
-  const std::uint64_t pixels = samples / (sensor.samples * sensor.samples) + 1;
+  const std::uint64_t pixels = samples / (std::uint64_t{sensor.samples} * sensor.samples) + 1;
   const std::uint64_t channels = std::min(pixels * frame.frame_bytes / sensor.pixel_count(), most_of_buffer);
   return samples * of_sample + sums + channels;
 }

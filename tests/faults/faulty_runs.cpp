@@ -30,11 +30,11 @@ std::map<std::string, long> counts_in(const fs::path &file) {
 std::set<int> codes_of(const std::string &kind) {
   static const std::set<int> memory{5}, device{4, 5, 6};
   static const std::map<std::string, std::set<int>> codes{
-      {"malloc", memory}, {"mmap", memory},   {"pthread_create", memory},
-      {"open", {3, 7}},   {"fopen", {3, 7}},  {"read", {3, 7}},
-      {"write", {7}},     {"fsync", {7}},     {"close", {3, 7}},
-      {"rename", {7}},    {"link", {7}},      {"unlink", {7}},
-      {"mkdir", {7}},     {"stat", {3, 7}},   {"fcntl", {7}},
+      {"malloc", memory}, {"mmap", memory},     {"pthread_create", memory},
+      {"open", {3, 7}},   {"fopen", {3, 5, 7}}, {"read", {3, 7}},
+      {"write", {7}},     {"fsync", {7}},       {"close", {3, 7}},
+      {"rename", {7}},    {"link", {7}},        {"unlink", {7}},
+      {"mkdir", {7}},     {"stat", {3, 7}},     {"fcntl", {7}},
       {"fallocate", {7}}, {"opendir", {3, 7}}};
   return kind.starts_with("vk") ? device : codes.at(kind);
 }

@@ -126,7 +126,7 @@ Error input_error(const AnyPlace &place, std::string_view message) {
   return std::visit([&](const auto &known) { return input_error(known, message); }, place);
 }
 
-Warning input_warning(const char *code, const Place &place, std::string text) {
+Warning input_warning(const char *code, const Place &place, const std::string &text) {
   return {code, in_one_line(text_of(place)), in_one_line(text)};
 }
 

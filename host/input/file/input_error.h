@@ -61,6 +61,6 @@ using AnyPlace = std::variant<Place, TextPlace>;
 Error input_error(const AnyPlace &place, std::string_view message);
 
 // A warning about a place in an input file: "FILE: POINTER", "FILE" for the empty pointer.
-Warning input_warning(const char *code, const Place &place, std::string text);
+Warning input_warning(const char *code, const Place &place, const std::string &text);
 
 } // namespace pmdsim

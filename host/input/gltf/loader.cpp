@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
+#include <new>
 #include <string_view>
 #include <tiny_gltf.h>
 #include <utility>
@@ -48,8 +49,11 @@ tinygltf::Model model_of(const GltfDocument &document, const std::filesystem::pa
   tinygltf::Model model;
   std::string error, warning;
   if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
-                                  ""))
+                                  "")) {
+    if (error.find(std::bad_alloc().what()) != error.npos) // which it catches as any other
+      throw std::bad_alloc();
     throw input_error(Place{file}, "no valid glTF 2.0: " + error);
+  }
   std::vector<Bytes> buffers = read_gltf_buffers(document, file);
   std::vector<DecodedView> decoded = decode_meshopt_views(document.json, buffers, Place{file});
   for (Bytes &bytes : buffers)
