@@ -12,16 +12,18 @@ bool is_too_large(const std::string &text) {
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char character = text[i];
-    if (character == '"')
+    const bool opens = character == '{' || character == '[', closes = character == '}' || character == ']';
+    if (character == '"') {
       in_string = !in_string;
-    else if (in_string)
+    } else if (in_string) {
       i += character == '\\' ? 1 : 0;
-    else if ((character == '{' || character == '[') && ++depth > max_json_depth)
+    } else {
+      depth += opens ? 1 : 0;
+      depth -= closes && depth > 0 ? 1 : 0;
+      values += opens || character == ',' ? 1 : 0;
+    }
+    if (depth > max_json_depth || values > max_json_values)
       return true;
-    else if ((character == ',' || character == '{' || character == '[') && ++values > max_json_values)
-      return true;
-    else if ((character == '}' || character == ']') && depth > 0)
-      --depth;
   }
   return false;
 }
