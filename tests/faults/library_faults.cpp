@@ -103,10 +103,11 @@ public:
   }
 
 private:
-  // What the first one leaves may be kept for the next ones; what each leaves is lost.
+  // What a failure leaves may be kept for the next ones, as the driver's caches are, which grow for a while;
+  // what each one leaves, however often, is lost.
   void fail_call(long call) {
     constexpr long few_bytes = 512;
-    constexpr int most_again = 3;
+    constexpr int most_again = 30;
     const std::optional<long> kept = kept_bytes(call);
     if (!kept)
       return;

@@ -116,8 +116,8 @@ public:
   }
 
 private:
-  void add(const char *code, const Place &place, std::string text) {
-    result_.warnings.push_back(input_warning(code, place, std::move(text)));
+  void add(const char *code, const Place &place, const std::string &text) {
+    result_.warnings.push_back(input_warning(code, place, text));
   }
 
   void add_materials() {

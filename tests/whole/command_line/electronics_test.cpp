@@ -244,7 +244,8 @@ TEST_CASE("binning after the ADC leaves the photon transfer of one reading") {
   const Run done =
       run_pmdsim({"noise", work.write("setup.json", setup.dump()), "-o", work / "out", "--json"});
   REQUIRE(done.exit_code == 0);
-  for (const json &point : json::parse(done.output)["noise"][0]["photon_transfer"])
+  const json report = json::parse(done.output);
+  for (const json &point : report["noise"][0]["photon_transfer"])
     if (point["full"] == false)
       CHECK(point["found_variance_dn2"].get<double>() ==
             Approx(point["variance_dn2"].get<double>()).epsilon(0.15));
