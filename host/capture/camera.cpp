@@ -114,18 +114,19 @@ void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector
   };
 }
 
-// What the frames before were granted is taken already. Strips become shorter before a frame is refused.
+std::uint64_t Camera::further_bytes(const MemoryForecast &frame) const {
+  return frame.bytes() - std::min(granted_bytes_, frame.bytes());
+}
+
+// Strips become shorter before a frame is refused.
 void Camera::ask_for_memory(FrameToForecast frame) {
   constexpr std::uint32_t short_strip = 1u << 16;
-  const auto lack_of = [&](const MemoryForecast &forecast) {
-    return lack_of_memory(forecast.bytes() - std::min(granted_bytes_, forecast.bytes()));
-  };
   MemoryForecast forecast = forecast_memory(frame);
-  std::optional<std::string> lack = lack_of(forecast);
+  std::optional<std::string> lack = lack_of_memory(further_bytes(forecast));
   if (lack && simulator_) {
     frame.max_strip_samples = short_strip;
     forecast = forecast_memory(frame);
-    lack = lack_of(forecast);
+    lack = lack_of_memory(further_bytes(forecast));
   }
   if (lack)
     throw lacking_memory(frame.sensor, forecast, *lack);

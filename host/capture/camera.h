@@ -50,8 +50,8 @@ public:
   const std::string &driver() const { return driver_; }
   bool is_reference() const { return !simulator_; }
   MeasuredBy measured_by() const;
-  // What frames so far were granted of memory, and hold on to.
-  std::uint64_t granted_bytes() const { return granted_bytes_; }
+  // What a frame takes beyond what frames so far were granted of memory, and hold on to.
+  std::uint64_t further_bytes(const MemoryForecast &frame) const;
 
   // Measurements from here on are of this. `scene` must outlive them. The reference is always as exact as it
   // can be. Throws Error: also (out_of_memory) where the forecast of a frame does not fit.

@@ -235,10 +235,10 @@ std::uint64_t Capture::room_for_waiting(std::size_t part_bytes) const {
   for (const Sensor &sensor : setup_.start.sensors) {
     const MemoryForecast forecast =
         forecast_of(setup_, sensor, camera.extras(), camera.measured_by(), part_bytes);
-    const std::uint64_t held = std::min(camera.granted_bytes(), forecast.bytes());
-    if (const auto lack = lack_of_memory(forecast.bytes() - held))
+    const std::uint64_t further = camera.further_bytes(forecast);
+    if (const auto lack = lack_of_memory(further))
       throw lacking_memory(sensor, forecast, *lack);
-    most = std::max(most, forecast.bytes() - held);
+    most = std::max(most, further);
   }
   const std::uint64_t left = memory_left();
   return left - std::min(left, most);
