@@ -72,7 +72,7 @@ NewSetup new_setup_of(const WrittenNew &written) {
         ExitCode::usage,
         fmt::format("KIND: expected one of {}, found {}; a folder of another name comes behind it, as in "
                     "`pmdsim new room {}`",
-                    fmt::join(setup_kind_names(), ", "), in_quotes(written.kind), written.kind));
+                    fmt::join(setup_kind_names(), ", "), in_quotes(written.kind), in_quotes(written.kind)));
   return {kind, written.folder.empty() ? std::filesystem::path(written.kind) : written.folder,
           sizes_of(*kind, written.wishes), written.force};
 }

@@ -1,5 +1,6 @@
 #include "host/input/words/near_file.h"
 
+#include "host/input/words/folder_names.h"
 #include "host/input/words/near_name.h"
 #include "host/input/words/quotes.h"
 
@@ -18,13 +19,9 @@ bool is_there(const std::filesystem::path &file) {
   return std::filesystem::exists(file, ignored);
 }
 
-std::vector<std::string> names_in(const std::filesystem::path &folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  std::filesystem::directory_iterator entry(folder, error);
-  for (; !error && entry != std::filesystem::directory_iterator() && names.size() < most_entries;
-       entry.increment(error))
-    names.push_back(entry->path().filename().string());
+std::vector<std::string> sorted_names_in(const std::filesystem::path &folder) {
+  std::error_code ignored;
+  std::vector<std::string> names = names_in(folder, ignored, most_entries);
   std::ranges::sort(names);
   return names;
 }
@@ -47,7 +44,7 @@ std::filesystem::path absent_folder(const std::filesystem::path &file) {
 // The same name with another ending first, then what is spelt alike.
 std::optional<std::string> near_in_folder(const std::filesystem::path &file) {
   const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
-  const std::vector<std::string> names = names_in(folder);
+  const std::vector<std::string> names = sorted_names_in(folder);
   const std::string name = file.filename().string();
   const auto same = std::ranges::find_if(names, [&](const std::string &other) {
     const std::filesystem::path path(other);

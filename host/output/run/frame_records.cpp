@@ -2,6 +2,7 @@
 
 #include "engine/model/error.h"
 #include "host/input/file/input_file.h"
+#include "host/input/words/folder_names.h"
 #include "host/output/run/run_identity.h"
 #include "host/output/run/run_json.h"
 
@@ -150,8 +151,8 @@ bool has_warnings(const ordered_json &record) {
 std::vector<std::uint32_t> recorded_frames(const fs::path &folder) {
   std::vector<std::uint32_t> frames;
   std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (const auto frame = frame_of(entry->path().filename().native()))
+  for (const std::string &name : names_in(folder, error))
+    if (const auto frame = frame_of(name))
       frames.push_back(*frame);
   if (error)
     throw Error(ExitCode::output, fmt::format("{}: cannot be read: {}", folder.string(), error.message()));

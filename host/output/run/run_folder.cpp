@@ -1,6 +1,7 @@
 #include "host/output/run/run_folder.h"
 
 #include "engine/model/error.h"
+#include "host/input/words/folder_names.h"
 #include "host/output/files/frame_warnings.h"
 #include "host/output/files/output_file.h"
 #include "host/output/run/run_json.h"
@@ -178,16 +179,12 @@ void RunFolder::clear(bool same_run, const FrameRange &frames, Earlier earlier) 
 }
 
 void RunFolder::remove_leftovers() const {
-  std::vector<fs::path> leftovers;
   std::error_code ignored;
-  for (fs::directory_iterator entry(path(), ignored), end; !ignored && entry != end;
-       entry.increment(ignored)) {
-    const auto name = name_of_temporary(entry->path().filename());
+  for (const std::string &file : names_in(path(), ignored)) {
+    const auto name = name_of_temporary(file);
     if (name && is_of_a_run(*name))
-      leftovers.push_back(entry->path());
+      remove_file(path() / file);
   }
-  for (const fs::path &leftover : leftovers)
-    remove_file(leftover);
 }
 
 std::optional<nlohmann::ordered_json> RunFolder::whole(std::uint32_t frame) const {

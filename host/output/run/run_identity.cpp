@@ -2,6 +2,7 @@
 
 #include "engine/model/error.h"
 #include "host/input/file/input_file.h"
+#include "host/input/words/folder_names.h"
 #include "host/output/files/manifest.h"
 #include "host/output/run/run_json.h"
 
@@ -71,11 +72,9 @@ std::string input_difference(const ordered_json &there, const ordered_json &here
 
 bool has_folders_of_runs(const std::filesystem::path &folder) {
   std::error_code ignored;
-  for (std::filesystem::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-       entry.increment(ignored))
-    if (std::filesystem::exists(entry->path() / run_file_name, ignored))
-      return true;
-  return false;
+  return std::ranges::any_of(names_in(folder, ignored), [&](const std::string &name) {
+    return std::filesystem::exists(folder / name / run_file_name, ignored);
+  });
 }
 
 // Objects with a file's name, or json::exception.

@@ -1,5 +1,6 @@
 #include "host/output/sheets/sheets.h"
 
+#include "host/input/words/folder_names.h"
 #include "host/output/files/manifest.h"
 #include "host/output/files/output_set.h"
 #include "host/output/pictures/preview.h"
@@ -154,17 +155,11 @@ std::vector<std::string> write_sheets(const fs::path &folder, const std::functio
 }
 
 void remove_sheets(const fs::path &folder, const std::string &sensor) {
-  std::vector<fs::path> sheets;
   std::error_code ignored;
-  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-       entry.increment(ignored)) {
-    const std::string name = entry->path().filename().string();
+  for (const std::string &name : names_in(folder, ignored))
     if (name.starts_with(sensor + ".") &&
         std::ranges::any_of(endings, [&](std::string_view ending) { return name.ends_with(ending); }))
-      sheets.push_back(entry->path());
-  }
-  for (const fs::path &sheet : sheets)
-    remove_file(sheet);
+      remove_file(folder / name);
 }
 
 } // namespace pmdsim
