@@ -5,6 +5,7 @@
 #include "host/memory/memory_limit.h"
 #include "host/report/failure.h"
 #include "host/report/report.h"
+#include "host/threads.h"
 
 #include <algorithm>
 #include <array>
@@ -81,6 +82,7 @@ int main(int argument_count, char **arguments) {
     stop_on_signals();
     if (const auto options = parse_options(argument_count, arguments)) {
       settle_environment();
+      settle_threads();
       set_max_memory(options->max_memory);
       std::ranges::find(commands, options->command, &Command::name)->run(*options);
     }

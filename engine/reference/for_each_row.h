@@ -7,12 +7,14 @@
 #include <exception>
 #include <functional>
 #include <stop_token>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace pmdsim::reference {
 
-// Calls work(row) once for every row, from `threads` threads, the calling one among them; `progress` with the
+// Calls work(row) once for every row, from `threads` threads, the calling one among them, or from fewer where
+// the system starts no more; `progress` with the
 // fraction done from the calling thread between its own rows. Where either throws, in whichever thread, the
 // others stop after the row that they are at, and the exception comes out here.
 template <class Work>
@@ -31,8 +33,11 @@ void for_each_row(std::uint32_t rows, const Work &work, const std::function<void
   std::vector<std::exception_ptr> failures(std::max(threads, 1U) - 1);
   std::vector<std::jthread> helpers;
   helpers.reserve(failures.size());
-  for (std::exception_ptr &failure : failures)
-    helpers.emplace_back(help, std::ref(failure));
+  try {
+    for (std::exception_ptr &failure : failures)
+      helpers.emplace_back(help, std::ref(failure));
+  } catch (const std::system_error &) { // it starts no more of them: those that there are do the work
+  }
 
   for (std::uint32_t row = next_row++; row < rows; row = next_row++) {
     work(row);

@@ -6,6 +6,7 @@
 #include "host/library/mesh.h"
 #include "host/library/objects.h"
 #include "host/output/files/manifest.h"
+#include "host/threads.h"
 
 #include <fmt/format.h>
 #include <string_view>
@@ -69,6 +70,7 @@ pmdsim_status pmdsim_simulator_create(const char *device, pmdsim_simulator **sim
   return guarded([&] {
     required(simulator, "simulator");
     settle_environment();
+    settle_threads();
     *simulator = simulators().add(std::make_shared<SimulatorObject>(device ? device : ""));
   });
 }

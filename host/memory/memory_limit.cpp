@@ -46,8 +46,7 @@ std::optional<std::string> lack_of_memory(std::uint64_t bytes) {
 
 void ask_for_memory(std::uint64_t bytes, const std::string &what, const std::string &remedy) {
   if (const auto lack = lack_of_memory(bytes))
-    throw Error(ExitCode::out_of_memory,
-                fmt::format("out of memory: {} {}: {}, or more by --max-memory", what, *lack, remedy));
+    throw Error(ExitCode::out_of_memory, fmt::format("out of memory: {} {}: {}", what, *lack, remedy));
 }
 
 } // namespace pmdsim

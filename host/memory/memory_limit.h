@@ -20,7 +20,7 @@ std::uint64_t memory_left();
 std::optional<std::string> lack_of_memory(std::uint64_t bytes);
 
 // Throws Error (out_of_memory) where there is no room for so many bytes more. `what` needs them, and `remedy`
-// is what else can be done: "take fewer pixels".
+// is what can be done: "take fewer pixels".
 void ask_for_memory(std::uint64_t bytes, const std::string &what, const std::string &remedy);
 
 } // namespace pmdsim

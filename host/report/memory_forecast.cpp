@@ -135,7 +135,7 @@ Error lacking_memory(const Sensor &sensor, const MemoryForecast &forecast, const
   return {
       ExitCode::out_of_memory,
       fmt::format("out of memory: a frame of the sensor {} {}, most of it for {}: take a lower resolution, "
-                  "fewer samples or frequencies, a smaller scene, or more by --max-memory",
+                  "fewer samples or frequencies, or a smaller scene",
                   sensor.name, lack, forecast.largest().what)};
 }
 

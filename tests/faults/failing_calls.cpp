@@ -291,11 +291,20 @@ FAILING(memory_map, ENOMEM, MAP_FAILED, void *, mmap64,
 
 // ---- threads
 
+namespace {
+// TBB waits for ever for a thread that did not start where it was called by Embree. The program looks for
+// such limits before; a call that fails alone passes here, and all of them do not.
+bool is_lone_thread_of_tbb(const void *caller) {
+  Dl_info info{};
+  return !plan.all_after && dladdr(caller, &info) != 0 && std::strstr(info.dli_fname, "libtbb") != nullptr;
+}
+} // namespace
 EXPORTED int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
                             void *with) noexcept {
   static auto *const system =
       next<int(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *)>("pthread_create");
-  return fails(thread_start, CALLER, EAGAIN) ? EAGAIN : system(thread, attributes, run, with);
+  const bool fails_now = !is_lone_thread_of_tbb(CALLER) && fails(thread_start, CALLER, EAGAIN);
+  return fails_now ? EAGAIN : system(thread, attributes, run, with);
 }
 
 // ---- files

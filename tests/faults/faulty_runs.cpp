@@ -137,8 +137,7 @@ std::string FaultyRuns::what_is_wrong(const std::string &fault, const Run &fault
   if (is_done)
     return {};
   // What it left must not be in the way of the next.
-  const Run next =
-      run(out, {}, workload_.is_run ? std::vector<std::string>{"--resume"} : std::vector<std::string>());
+  const Run next = run(out, {}, workload_.again);
   if (next.exit_code != 0)
     return fmt::format("the next run: exit code {}, {}", next.exit_code, next.errors);
   const std::string wrong = wrong_files(out, true);

@@ -19,8 +19,9 @@ Files files_below(const std::filesystem::path &folder);
 
 struct Workload {
   std::string name;
-  std::vector<std::string> arguments; // "OUT" stands for what it writes, a file or a folder
-  bool is_run = true;                 // its outputs are a run's, which --resume completes
+  std::vector<std::string> arguments;         // "OUT" stands for what it writes, a file or a folder
+  bool is_run = true;                         // its outputs are a run's
+  std::vector<std::string> again{"--resume"}; // what a further run is told that completes them
 };
 
 // Of one call that was to fail.

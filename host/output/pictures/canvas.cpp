@@ -57,7 +57,11 @@ cairo_status_t append(void *closure, const unsigned char *bytes, unsigned count)
   }
 }
 
-cairo_status_t write_surface(cairo_surface_t *surface, std::function<void(std::string_view)> write) {
+// A context that has failed draws nothing more, and its surface knows nothing of that.
+cairo_status_t write_drawn(cairo_t *context, cairo_surface_t *surface,
+                           std::function<void(std::string_view)> write) {
+  if (const cairo_status_t drawn = cairo_status(context); drawn != CAIRO_STATUS_SUCCESS)
+    return drawn;
   PngSink sink{std::move(write), {}};
   const cairo_status_t status = cairo_surface_write_to_png_stream(surface, &append, &sink);
   if (sink.failure)
@@ -195,7 +199,7 @@ void Canvas::frame(const Box &box, const Axis &bottom, const Axis &left, const s
 
 void Canvas::write_png(OutputFile &file) const {
   const cairo_status_t status =
-      write_surface(surface_.get(), [&](std::string_view bytes) { file.write(bytes); });
+      write_drawn(context_.get(), surface_.get(), [&](std::string_view bytes) { file.write(bytes); });
   if (status != CAIRO_STATUS_SUCCESS)
     throw write_error(file.path(), cairo_status_to_string(status),
                       status == CAIRO_STATUS_NO_MEMORY ? Lacking::memory : Lacking::other);
@@ -203,7 +207,8 @@ void Canvas::write_png(OutputFile &file) const {
 
 std::string Canvas::png() const {
   std::string png;
-  if (write_surface(surface_.get(), [&](std::string_view bytes) { png += bytes; }) != CAIRO_STATUS_SUCCESS)
+  if (write_drawn(context_.get(), surface_.get(), [&](std::string_view bytes) { png += bytes; }) !=
+      CAIRO_STATUS_SUCCESS)
     throw std::bad_alloc(); // there is nothing else that could fail
   return png;
 }

@@ -99,6 +99,22 @@ std::optional<std::string> text_of(const fs::path &file) {
   }
 }
 
+Error unreadable(const fs::path &path, const std::error_code &error) {
+  return {ExitCode::output, fmt::format("{}: cannot be read: {}", path.string(), error.message())};
+}
+
+bool is_file_of(const fs::path &path, std::uint64_t bytes) {
+  static constexpr std::array is_no_file{
+      std::errc::no_such_file_or_directory, std::errc::not_a_directory, std::errc::is_a_directory,
+      std::errc::not_supported, // as libstdc++ has it of pipes and the like
+      std::errc::too_many_symbolic_link_levels};
+  std::error_code error;
+  const std::uintmax_t there = fs::file_size(path, error);
+  if (error && std::ranges::none_of(is_no_file, [&](std::errc one) { return error == one; }))
+    throw unreadable(path, error);
+  return !error && there == bytes;
+}
+
 } // namespace
 
 std::string record_name(std::uint32_t frame) { return fmt::format("{:04}{}", frame, record_ending); }
@@ -129,9 +145,8 @@ bool has_its_files(const fs::path &folder, const ordered_json &record) {
   for (const ordered_json &sensor : record.at("sensors")) {
     const ordered_json &outputs = sensor.at("manifest").at("outputs");
     for (std::size_t i = 0; i < outputs.size(); ++i) {
-      std::error_code absent;
-      const std::uintmax_t bytes = fs::file_size(folder / outputs[i].get<std::string>(), absent);
-      if (absent || bytes != sensor.at("bytes").at(i).get<std::uint64_t>())
+      const auto bytes = sensor.at("bytes").at(i).get<std::uint64_t>();
+      if (!is_file_of(folder / outputs[i].get<std::string>(), bytes))
         return false;
     }
   }
@@ -155,7 +170,7 @@ std::vector<std::uint32_t> recorded_frames(const fs::path &folder) {
     if (const auto frame = frame_of(name))
       frames.push_back(*frame);
   if (error)
-    throw Error(ExitCode::output, fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+    throw unreadable(folder, error);
   std::ranges::sort(frames);
   return frames;
 }

@@ -27,7 +27,8 @@ nlohmann::ordered_json record_json(const std::string &run_hash, const std::vecto
 std::optional<nlohmann::ordered_json> read_record(const std::filesystem::path &folder, std::uint32_t frame,
                                                   const std::string &run_hash);
 
-// Whether the outputs that it names are there, each of its size.
+// Whether the outputs that it names are there, each of its size. Throws Error (output) where the system does
+// not tell.
 bool has_its_files(const std::filesystem::path &folder, const nlohmann::ordered_json &record);
 
 // Whether it has warnings, or pixels that may be off by more than was asked for.
