@@ -11,8 +11,17 @@
 #include <string>
 #include <string_view>
 
-// libFuzzer's entry. Where all targets are one program, the build gives each a name of its own.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size);
+// Begins the function of a target: libFuzzer's entry where each is a fuzzer; where all are one program, one
+// of tests/fuzz/targets.h.
+#ifdef PMDSIM_FUZZ
+#define FUZZ_TARGET(name)                                                                                    \
+  extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size);                         \
+  int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
+#else
+#define FUZZ_TARGET(name)                                                                                    \
+  extern "C" int fuzz_##name(const std::uint8_t *data, std::size_t size);                                    \
+  int fuzz_##name(const std::uint8_t *data, std::size_t size)
+#endif
 
 namespace pmdsim::fuzz {
 

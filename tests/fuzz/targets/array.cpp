@@ -6,7 +6,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(array) {
   const std::filesystem::path file = fuzz::write_file("image.bin", fuzz::text_of(data, size));
   fuzz::accepts([&] { read_image_arrays(file, [](std::string_view name) { return name != "coverage"; }); });
   return 0;

@@ -8,7 +8,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(calibration) {
   constexpr std::array cameras{"", "1", "2", "cam1", "left"};
   if (size == 0)
     return 0;

@@ -22,7 +22,7 @@ std::vector<std::string> words_of(std::string_view text) {
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(command_line) {
   const std::vector<std::string> words = words_of(fuzz::text_of(data, size));
   if (words.size() < 2)
     return 0; // prints the first steps

@@ -7,7 +7,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(diodes) {
   static const std::filesystem::path folder = fuzz::write_small_files();
   const std::filesystem::path file = fuzz::write_file("table.csv", fuzz::text_of(data, size));
   fuzz::accepts([&] {

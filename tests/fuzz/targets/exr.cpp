@@ -7,7 +7,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(exr) {
   static const std::filesystem::path file = "frame.exr";
   fuzz::accepts([&] {
     for (const ReadChannel &channel : read_exr({file, std::string(fuzz::text_of(data, size))}).channels)

@@ -6,7 +6,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(gltf) {
   const std::filesystem::path file = fuzz::write_file("scene.glb", fuzz::text_of(data, size));
   fuzz::accepts([&] {
     const GltfFile gltf = load_gltf(file, Place{"setup.json"} / "scene");

@@ -6,7 +6,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(hdf5) {
   static const std::filesystem::path file = "frame.h5";
   fuzz::accepts([&] { read_h5({file, std::string(fuzz::text_of(data, size))}); });
   return 0;

@@ -6,7 +6,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(ies) {
   const std::string text(fuzz::text_of(data, size));
   if (text.find('\0') != std::string::npos)
     return 0; // the reader of text files refuses it

@@ -7,7 +7,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(image) {
   constexpr std::size_t most_pixels = 1 << 20;
   const Place place{"image.png"};
   if (fuzz::accepts([&] { linear_texture(decoded_image({data, size}, most_pixels, place)); }))

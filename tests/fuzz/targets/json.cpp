@@ -9,7 +9,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(json) {
   const std::string_view text = fuzz::text_of(data, size);
   nlohmann::json json;
   const auto parsed = [&](Comments comments) {

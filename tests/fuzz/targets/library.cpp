@@ -217,7 +217,7 @@ private:
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(library) {
   static const std::filesystem::path folder = fuzz::write_small_files();
   static_cast<void>(folder);
   Calls(fuzz::Decoder(data, size)).all();

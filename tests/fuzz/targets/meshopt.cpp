@@ -32,7 +32,7 @@ nlohmann::json document_of(const std::uint8_t *head, std::size_t stream_bytes) {
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(meshopt) {
   constexpr std::size_t head_bytes = 4;
   if (size < head_bytes)
     return 0;

@@ -6,7 +6,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(npz) {
   const std::string_view bytes = fuzz::text_of(data, size);
   const Place place{"image.npz"};
   if (bytes.starts_with(npy_magic))

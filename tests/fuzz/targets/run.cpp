@@ -49,7 +49,7 @@ void read_for_page(const std::filesystem::path &folder) {
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(run) {
   const auto [run, record, manifest] = parts_of(fuzz::text_of(data, size));
   fuzz::write_file("run.json", run);
   fuzz::write_file("0007.record.json", record);

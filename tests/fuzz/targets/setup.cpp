@@ -26,7 +26,7 @@ void load(const SetupDocument &document) {
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(setup) {
   static const std::filesystem::path file = fuzz::write_small_files() / "setup.json";
   const std::string_view text = fuzz::text_of(data, size);
   const std::size_t end = std::min(text.find(before_changes), text.size());

@@ -169,7 +169,7 @@ void compare_with_reference(const RandomSetup &setup, const Measurement &measure
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(setups) {
   static Simulator simulator = test::make_simulator(
       {.device = {}, .keep_sample_ids = true, .keep_visibility = true, .loop = DiodeLoop::looped});
   fuzz::Decoder bytes(data, size);

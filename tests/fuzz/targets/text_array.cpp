@@ -6,7 +6,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(text_array) {
   const std::string_view text = fuzz::text_of(data, size);
   if (text.find('\0') == text.npos) // else it is no text
     fuzz::accepts([&] { text_array(text, Place{"image.csv"}); });

@@ -6,7 +6,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(trajectory) {
   const std::filesystem::path file = fuzz::write_file("poses.txt", fuzz::text_of(data, size));
   fuzz::accepts([&] {
     const Trajectory trajectory = read_trajectory(file, Place{"setup.json"} / "pose");

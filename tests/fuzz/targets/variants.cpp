@@ -7,7 +7,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(variants) {
   static const SetupDocument setup = read_setup_document(fuzz::write_small_files() / "setup.json");
   const std::filesystem::path file = fuzz::write_file("variants.jsonl", fuzz::text_of(data, size));
   fuzz::accepts([&] { variants_of({setup}, file); });

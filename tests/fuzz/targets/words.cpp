@@ -11,7 +11,7 @@
 
 using namespace pmdsim;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+FUZZ_TARGET(words) {
   const std::string text(fuzz::text_of(data, size));
   if (const auto length = length_m(text);
       length && !(*length >= least_written_length_m && *length <= largest_written_length_m))
