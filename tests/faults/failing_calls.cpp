@@ -1,8 +1,8 @@
 // A library for LD_PRELOAD: calls of the system for memory, files and threads fail as tests/faults/plan.h
 // tells. Calls count where the program or a library that it works with makes them. What the Vulkan driver,
 // its compiler and the dynamic linker call passes, as they end the process where memory is short, whoever
-// uses them; so do libarchive and HDF5 1.10, which call exit() or crash. What reads fonts and fills areas
-// passes, too, as it draws with others, or without, where it cannot.
+// uses them; so do libarchive, HDF5 1.10 and Cairo 1.16, which call exit() or crash. What reads fonts and
+// fills areas passes, too, as it draws with others, or without, where it cannot.
 
 #include "tests/faults/plan.h"
 
@@ -54,7 +54,7 @@ Module module_named(std::string_view path) {
                               "libxcb",      "libX11",  "libXau",     "libXdmcp",      "libwayland",
                               "libelf",      "libedit", "libz3",      "ld-linux",      "libsensors",
                               "libexpat",    "libzstd", "libbsd",     "failing_calls", "libfontconfig",
-                              "libfreetype", "libhdf5", "libpixman",  "libarchive"};
+                              "libfreetype", "libhdf5", "libpixman",  "libarchive",    "libcairo"};
   constexpr std::array carriers{"libstdc++", "libc.so", "libgcc_s", "libm.so"};
   for (const char *name : passed)
     if (path.find(name) != path.npos)

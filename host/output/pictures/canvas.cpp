@@ -28,17 +28,20 @@ void use_colour(cairo_t *context, const Colour &colour) {
 // Lines of one pixel are sharp only on half coordinates.
 double crisp(double coordinate) { return std::floor(coordinate) + 0.5; }
 
-double advance(cairo_t *context, const std::string &text) {
+// Throws std::bad_alloc where there is no memory: a text without a size would move all others.
+cairo_text_extents_t extents_of(cairo_t *context, const char *text) {
   cairo_text_extents_t extents;
-  cairo_text_extents(context, text.c_str(), &extents);
-  return extents.x_advance;
+  cairo_text_extents(context, text, &extents);
+  if (cairo_status(context) == CAIRO_STATUS_NO_MEMORY)
+    throw std::bad_alloc();
+  return extents;
 }
 
-double capital_height(cairo_t *context) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(context, "H", &extents);
-  return extents.height;
+double advance(cairo_t *context, const std::string &text) {
+  return extents_of(context, text.c_str()).x_advance;
 }
+
+double capital_height(cairo_t *context) { return extents_of(context, "H").height; }
 
 struct PngSink {
   std::function<void(std::string_view)> write;
@@ -67,6 +70,11 @@ cairo_status_t write_drawn(cairo_t *context, cairo_surface_t *surface,
   if (sink.failure)
     std::rethrow_exception(sink.failure);
   return status;
+}
+
+// libpng's errors have no code of their own; of a picture that is drawn they can be no others.
+bool lacks_memory(cairo_status_t status) {
+  return status == CAIRO_STATUS_NO_MEMORY || status == CAIRO_STATUS_PNG_ERROR;
 }
 
 } // namespace
@@ -202,7 +210,7 @@ void Canvas::write_png(OutputFile &file) const {
       write_drawn(context_.get(), surface_.get(), [&](std::string_view bytes) { file.write(bytes); });
   if (status != CAIRO_STATUS_SUCCESS)
     throw write_error(file.path(), cairo_status_to_string(status),
-                      status == CAIRO_STATUS_NO_MEMORY ? Lacking::memory : Lacking::other);
+                      lacks_memory(status) ? Lacking::memory : Lacking::other);
 }
 
 std::string Canvas::png() const {
