@@ -124,16 +124,20 @@ def ways(arguments, installed):
         yield name, False, lambda s, program=program: s.render(program=program)
 
 
+def absolute(text):
+    return Path(text).resolve()
+
+
 def named_program(text):
     name, program = text.split("=", 1)
-    return name, Path(program)
+    return name, absolute(program)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", type=Path, required=True)
-    parser.add_argument("--scenes", type=Path, required=True)
-    parser.add_argument("--build", type=Path)
+    parser.add_argument("--program", type=absolute, required=True)
+    parser.add_argument("--scenes", type=absolute, required=True)
+    parser.add_argument("--build", type=absolute)
     parser.add_argument("--other", type=named_program, action="append", default=[])
     arguments = parser.parse_args()
     scratch = Path(tempfile.mkdtemp(prefix="pmdsim_same_bits_"))

@@ -138,7 +138,7 @@ def soak_library(setup, frames):
 
 
 def main():
-    program, scenes = Path(sys.argv[1]), Path(sys.argv[2])
+    program, scenes = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     frames = int(sys.argv[3]) if len(sys.argv) > 3 else 2000
     place = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
     scratch = Path(tempfile.mkdtemp(prefix="pmdsim_soak_", dir=place))
