@@ -23,7 +23,7 @@ struct Folder {
 
 Workload render(const Folder &folder, const std::string &device) {
   return {
-      "render",
+      device == "reference" ? "reference" : "render",
       {"render", folder.setup, "--device", device, "--format", "exr,npz,npy,png,csv,h5,ply", "-o", "OUT"}};
 }
 

@@ -3,6 +3,7 @@
 
 #include "tests/comparison/comparison.h"
 #include "tests/comparison/light_formula.h"
+#include "tests/support/every_third.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
 
@@ -183,9 +184,11 @@ void check_the_same(const Measurement &host, const Measurement &device) {
 
 } // namespace
 
-TEST_CASE("the host makes pixels as the device does, and as the reference") {
+namespace {
+
+void check_pixels_of_host(const std::vector<PixelCase> &cases) {
   fmt::print("{}", comparison_heading());
-  for (const PixelCase &of : pixel_cases()) {
+  for (const PixelCase &of : cases) {
     INFO(of.name);
     const Sensor sensor = sensor_of(of);
     const auto expected =
@@ -203,8 +206,6 @@ TEST_CASE("the host makes pixels as the device does, and as the reference") {
     }
   }
 }
-
-namespace {
 
 // `tolerance`: relative. Where tables stand for roots, the host's bounds may be `growth` times the device's.
 void check_bounds(const Measurement &host, const Measurement &device, double tolerance, double growth) {
@@ -241,15 +242,13 @@ void check_within_bounds(const Measurement &host, const Measurement &exact) {
     }
 }
 
-void check_bounds_of_host(std::initializer_list<std::uint32_t> vector_bits) {
+void check_bounds_of_host(std::initializer_list<std::uint32_t> vector_bits,
+                          const std::vector<PixelCase> &cases) {
   Accuracy within, precise;
   within.mode = Mode::automatic;
   within.max_error_m = 100e-6;
   within.precision = Precision::fp32; // so that no pixel is summed again in double
   precise.precision = Precision::fp64;
-  std::vector<PixelCase> cases = pixel_cases();
-  cases.push_back(beams_that_end_in_view());
-  cases.push_back(narrow_beams());
   for (const PixelCase &of : cases) {
     // On the device pixels that turn away from some source, and boards in space, are sorted into classes.
     const bool sorts = of.shadows == Shadows::off || !of.is_one_run();
@@ -271,10 +270,27 @@ void check_bounds_of_host(std::initializer_list<std::uint32_t> vector_bits) {
   }
 }
 
+std::vector<PixelCase> bounded_cases() {
+  std::vector<PixelCase> cases = pixel_cases();
+  cases.push_back(beams_that_end_in_view());
+  cases.push_back(narrow_beams());
+  return cases;
+}
+
 } // namespace
 
-TEST_CASE("the host bounds a pixel's error as the device does") { check_bounds_of_host({512}); }
+TEST_CASE("the host makes pixels as the device does, and as the reference") {
+  check_pixels_of_host(every_third(pixel_cases()));
+}
+
+TEST_CASE("the host makes all kinds of pixels as the device does, and as the reference", "[long]") {
+  check_pixels_of_host(pixel_cases());
+}
+
+TEST_CASE("the host bounds a pixel's error as the device does") {
+  check_bounds_of_host({512}, every_third(bounded_cases()));
+}
 
 TEST_CASE("vectors of any width bound a pixel's error as the device does", "[long]") {
-  check_bounds_of_host({256, 128});
+  check_bounds_of_host({512, 256, 128}, bounded_cases());
 }

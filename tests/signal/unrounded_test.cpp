@@ -3,12 +3,14 @@
 #include "engine/model/channels.h"
 #include "tests/comparison/frame_bytes.h"
 #include "tests/comparison/random_options.h"
+#include "tests/support/every_third.h"
 #include "tests/support/random_setups.h"
 #include "tests/support/simulator.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 using namespace pmdsim;
@@ -52,10 +54,8 @@ void check_frame(const Measurement &frame, const Sensor &sensor) {
   check_rounded(frame.range_m, frame.unrounded_range_m, std::numeric_limits<double>::infinity());
 }
 
-} // namespace
-
-TEST_CASE("unrounded distances lie within a rounding, and all other channels keep their bits") {
-  for (const std::string &name : repeatability_frames()) {
+void check_other_channels(const std::vector<std::string> &names) {
+  for (const std::string &name : names) {
     const RepeatabilityFrame of = repeatability_frame(name);
     INFO(name);
     SimulatorOptions options = keep_everything(9000); // strips
@@ -69,8 +69,8 @@ TEST_CASE("unrounded distances lie within a rounding, and all other channels kee
   }
 }
 
-TEST_CASE("they are there whatever way a frame takes, and are gone where nobody asks for them") {
-  for (const std::uint32_t seed : {3u, 20u, 41u, 62u, 77u}) {
+void check_random_ways(std::initializer_list<std::uint32_t> seeds) {
+  for (const std::uint32_t seed : seeds) {
     INFO("seed " << seed);
     const RandomSetup setup = random_setup(seed);
     Random random(seed);
@@ -97,4 +97,23 @@ TEST_CASE("they are there whatever way a frame takes, and are gone where nobody 
     CHECK(without.returns[0].unrounded_distance_m.empty());
     CHECK(without.unrounded_range_m.empty());
   }
+}
+
+} // namespace
+
+TEST_CASE("unrounded distances lie within a rounding, and all other channels keep their bits") {
+  check_other_channels(every_third(repeatability_frames()));
+}
+
+TEST_CASE("unrounded distances of all frames lie within a rounding", "[long]") {
+  check_other_channels(repeatability_frames());
+}
+
+TEST_CASE(
+    "unrounded distances are there whatever way a frame takes, and are gone where nobody asks for them") {
+  check_random_ways({3u, 41u});
+}
+
+TEST_CASE("unrounded distances are there whatever way a frame takes, other ways", "[long]") {
+  check_random_ways({20u, 62u, 77u});
 }
