@@ -14,9 +14,9 @@
 namespace pmdsim::reference {
 
 // Calls work(row) once for every row, from `threads` threads, the calling one among them, or from fewer where
-// the system starts no more; `progress` with the
-// fraction done from the calling thread between its own rows. Where either throws, in whichever thread, the
-// others stop after the row that they are at, and the exception comes out here.
+// the system starts no more; `progress` with the fraction done from the calling thread between its own rows.
+// Where either throws, in whichever thread, the others stop after the row that they are at, and the exception
+// comes out here.
 template <class Work>
 void for_each_row(std::uint32_t rows, const Work &work, const std::function<void(double)> &progress,
                   unsigned threads = std::thread::hardware_concurrency()) {
