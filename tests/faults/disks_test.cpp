@@ -61,7 +61,7 @@ TEST_CASE("A quota that is used up ends a run with the frames that fit") {
   RunOptions options;
   options.environment = {{"PMDSIM_VALIDATE", "0"},
                          {"LD_PRELOAD", PMDSIM_FAILING_CALLS},
-                         {faults::plan_variable, fmt::format("fallocate:100+:{}", EDQUOT)}};
+                         {pmdsim::faults::plan_variable, fmt::format("fallocate:100+:{}", EDQUOT)}};
   const Run run = run_pmdsim(sequence.arguments(out.string()), options);
   INFO(run.errors);
   CHECK(run.exit_code == 7);

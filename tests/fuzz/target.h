@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 
-// Begins the function of a target: libFuzzer's entry where each is a fuzzer; where all are one program, one
-// of tests/fuzz/targets.h.
+// Begins the function of a target: libFuzzer's entry where each is a fuzzer; where all are one program, which
+// lists them, a function with the target's name.
 #ifdef PMDSIM_FUZZ
 #define FUZZ_TARGET(name)                                                                                    \
   extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size);                         \

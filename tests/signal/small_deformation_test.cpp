@@ -3,7 +3,6 @@
 
 #include "engine/reference/reference.h"
 #include "tests/comparison/light_formula.h"
-#include "tests/support/every_third.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
 

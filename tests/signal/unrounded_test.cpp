@@ -3,7 +3,6 @@
 #include "engine/model/channels.h"
 #include "tests/comparison/frame_bytes.h"
 #include "tests/comparison/random_options.h"
-#include "tests/support/every_third.h"
 #include "tests/support/random_setups.h"
 #include "tests/support/simulator.h"
 
