@@ -21,7 +21,7 @@ std::vector<std::string> names_in(const std::filesystem::path &folder, std::erro
   const std::unique_ptr<DIR, Close> open(::opendir(folder.c_str()));
   while (open && names.size() < most) {
     errno = 0;
-    const dirent *entry = ::readdir(open.get());
+    const dirent *entry = ::readdir(open.get()); // NOLINT(concurrency-mt-unsafe): its stream is this call's
     if (!entry) {
       error.assign(errno, std::generic_category());
       return names;

@@ -166,7 +166,8 @@ TEST_CASE("a folder that cannot be written is left as it is") {
 
 TEST_CASE("wrong command lines of new") {
   const Workspace work;
-  check_refusal(new_setup(work, {"castle"}), 2, {"KIND", "castle", "room, ring", "pmdsim new room \"castle\""});
+  check_refusal(new_setup(work, {"castle"}), 2,
+                {"KIND", "castle", "room, ring", "pmdsim new room \"castle\""});
   check_refusal(new_setup(work, {"plane"}), 2, {"KIND", "star, checkerboard"});
   check_refusal(new_setup(work, {"room", "--distance-m", "2"}), 2, {"--distance-m", "room"});
   check_refusal(new_setup(work, {"wall", "--spokes", "7"}), 2, {"--spokes", "wall"});
