@@ -21,13 +21,14 @@ int threads_that_start(int wanted) {
   try {
     while (static_cast<int>(threads.size()) < wanted)
       threads.emplace_back([&] { all_tried.wait(); });
-  } catch (const std::system_error &) { // these are all
+  } catch (const std::system_error &) {
+    wanted = static_cast<int>(threads.size());
   } catch (...) {
     release();
     throw;
   }
   release();
-  return static_cast<int>(threads.size());
+  return wanted;
 }
 
 void limit_threads() {

@@ -36,7 +36,8 @@ void for_each_row(std::uint32_t rows, const Work &work, const std::function<void
   try {
     for (std::exception_ptr &failure : failures)
       helpers.emplace_back(help, std::ref(failure));
-  } catch (const std::system_error &) { // it starts no more of them: those that there are do the work
+  } catch (const std::system_error &) {
+    failures.resize(helpers.size()); // those that there are do the work
   }
 
   for (std::uint32_t row = next_row++; row < rows; row = next_row++) {
