@@ -181,10 +181,6 @@ void check_the_same(const Measurement &host, const Measurement &device) {
   }
 }
 
-} // namespace
-
-namespace {
-
 void check_pixels_of_host(const std::vector<PixelCase> &cases) {
   fmt::print("{}", comparison_heading());
   for (const PixelCase &of : cases) {
