@@ -43,10 +43,24 @@ struct DeviceInUse {
   TextureCache textures;
 };
 
+namespace {
+
+// A device that fails before it was ever of use was not lost.
+std::unique_ptr<DeviceInUse> started(const SimulatorOptions &asked) {
+  try {
+    return vulkan::checked([&] { return std::make_unique<DeviceInUse>(asked); });
+  } catch (const Error &error) {
+    if (error.code() != ExitCode::device_lost)
+      throw;
+    throw Error(ExitCode::no_device, fmt::format("the Vulkan device does not start: {}", error.what()));
+  }
+}
+
+} // namespace
+
 struct Simulator::State {
   explicit State(const SimulatorOptions &asked)
-      : wanted(asked), options(asked),
-        in_use(vulkan::checked([&] { return std::make_unique<DeviceInUse>(asked); })), info(in_use->info) {}
+      : wanted(asked), options(asked), in_use(started(asked)), info(in_use->info) {}
 
   // Whatever Vulkan throws there becomes an Error.
   template <class Use>
@@ -93,12 +107,18 @@ auto Simulator::State::with_device(const Use &use) {
 void Simulator::State::set_up_again() {
   frame.reset();
   in_use.reset(); // first, as a driver may give a device to one user alone
+  std::unique_ptr<DeviceInUse> again;
   try {
-    in_use = vulkan::checked([&] { return std::make_unique<DeviceInUse>(wanted); });
+    again = started(wanted);
   } catch (const Error &error) {
     throw Error(ExitCode::device_lost,
                 fmt::format("the device was lost and does not come back: {}", error.what()));
   }
+  if (again->info.name != info.name || again->info.driver != info.driver) // whose bits would be others
+    throw Error(
+        ExitCode::device_lost,
+        fmt::format("the device was lost and does not come back: {} answers for it", again->info.name));
+  in_use = std::move(again);
   is_lost = false;
 }
 
@@ -163,6 +183,8 @@ const DeviceInfo &Simulator::device() const { return state_->info; }
 const SimulatorOptions &Simulator::options() const { return state_->wanted; }
 
 void Simulator::change(const SimulatorOptions &options) { state_->wanted = options; }
+
+void Simulator::give_up_device() { state_->is_lost = true; }
 
 void Simulator::prepare(const Scene &scene, const Sensor &sensor,
                         const std::vector<Illuminator> &illuminators, Backscatter backscatter,

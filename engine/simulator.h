@@ -38,6 +38,8 @@ public:
   const SimulatorOptions &options() const;
   // Frames from the next prepare() on are measured so. The device and validation stay as they are.
   void change(const SimulatorOptions &options);
+  // The device counts as lost, as where others of the process are: the next prepare() sets it up anew.
+  void give_up_device();
 
   // With Mode::automatic `scene` must outlive the frames, which may have to be prepared anew, more exact.
   // Uploads what a frame needs and compiles its shaders. A device that was lost is set up anew first. Throws

@@ -31,18 +31,18 @@ int threads_that_start(int wanted) {
   return wanted;
 }
 
-void limit_threads() {
-  static std::optional<tbb::global_control> limit;
-  const int wanted = tbb::info::default_concurrency() - 1, there = threads_that_start(wanted);
-  if (there < wanted)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(there) + 1);
-}
-
 } // namespace
 
 void settle_threads() {
-  static std::once_flag once;
-  std::call_once(once, limit_threads);
+  static std::mutex mutex;
+  static std::optional<tbb::global_control> limit;
+  static int most = tbb::info::default_concurrency(); // beside the calling thread, as run_pipeline() has them
+  const std::scoped_lock lock(mutex);
+  const int there = threads_that_start(most);
+  if (there == most)
+    return;
+  most = there;
+  limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(there) + 1);
 }
 
 } // namespace pmdsim

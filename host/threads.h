@@ -7,7 +7,8 @@ namespace pmdsim {
 // to start one, as it does beyond a limit of processes (ulimit -u, a control group's pids.max). Where it
 // refuses now, TBB is told to make do with those that start.
 //
-// To be called before TBB begins its work; further calls do nothing.
+// To be called before TBB begins its work, and again where others have taken threads, as a device's driver
+// does, which ends in an error of its own where it gets none.
 void settle_threads();
 
 } // namespace pmdsim

@@ -10,6 +10,7 @@
 #include "host/memory/byte_count.h"
 #include "host/memory/machine_memory.h"
 #include "host/memory/memory_limit.h"
+#include "host/threads.h"
 
 #include <algorithm>
 #include <cctype>
@@ -48,7 +49,7 @@ void set_extras(const Extras &extras, SimulatorOptions &options) {
 } // namespace
 
 MemoryForecast forecast_of(const Setup &setup, const Sensor &sensor, const Extras &extras, MeasuredBy by,
-                           std::size_t written_bytes) {
+                           std::size_t written_bytes, std::uint32_t max_strip_samples) {
   FrameToForecast frame{setup.start.scene,
                         sensor,
                         setup.start.illuminators,
@@ -58,6 +59,7 @@ MemoryForecast forecast_of(const Setup &setup, const Sensor &sensor, const Extra
   if (setup.bounces.any() && by != MeasuredBy::reference)
     frame.elements = forecast_bounces(setup.start.scene, sensor, setup.bounces).elements;
   frame.frames_at_once = std::size_t{setup.frames.count} * setup.start.sensors.size() > 1 ? 2 : 1;
+  frame.max_strip_samples = max_strip_samples;
   frame.is_written = true;
   frame.made_bytes = written_bytes - std::min(written_bytes, frame.frame_bytes);
   frame.moves = setup.motion != nullptr;
@@ -77,6 +79,7 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   options.validation = validation_of(std::getenv("PMDSIM_VALIDATE")); // NOLINT(concurrency-mt-unsafe)
   const std::uint64_t taken_before = taken_memory();
   simulator_.emplace(options);
+  settle_threads();
   const std::uint64_t taken = taken_memory();
   granted_bytes_ = std::min(taken - std::min(taken, taken_before), bytes_of_device);
   device_ = simulator_->device().name;
@@ -120,11 +123,10 @@ std::uint64_t Camera::further_bytes(const MemoryForecast &frame) const {
 
 // Strips become shorter before a frame is refused.
 void Camera::ask_for_memory(FrameToForecast frame) {
-  constexpr std::uint32_t short_strip = 1u << 16;
   MemoryForecast forecast = forecast_memory(frame);
   std::optional<std::string> lack = lack_of_memory(further_bytes(forecast));
   if (lack && simulator_) {
-    frame.max_strip_samples = short_strip;
+    frame.max_strip_samples = short_strip_samples;
     forecast = forecast_memory(frame);
     lack = lack_of_memory(further_bytes(forecast));
   }
@@ -215,6 +217,11 @@ Measurement Camera::measurement_of(const reference::Frame &frame, const Exposure
     for_each_unrounded(
         measurement, [](const ChannelIndex &, auto &, std::vector<double> &unrounded) { unrounded.clear(); });
   return measurement;
+}
+
+void Camera::give_up_device() {
+  if (simulator_)
+    simulator_->give_up_device();
 }
 
 void Camera::reuse(Measurement &&frame) {

@@ -28,9 +28,12 @@ struct Extras {
 };
 
 // What a frame of the sensor, which is one of the setup's, takes beside the setup. `written_bytes`: of what
-// is written of it, as bytes_of_largest_frame() counts.
+// is written of it, as bytes_of_largest_frame() counts. `max_strip_samples` as SimulatorOptions.
 MemoryForecast forecast_of(const Setup &setup, const Sensor &sensor, const Extras &extras, MeasuredBy by,
-                           std::size_t written_bytes);
+                           std::size_t written_bytes, std::uint32_t max_strip_samples = 0);
+
+// Of a device's strips where memory is short.
+inline constexpr std::uint32_t short_strip_samples = 1u << 16;
 
 // Whether a device's name, in any case, is the one of the reference.
 bool names_the_reference(const std::string &device);
@@ -73,6 +76,8 @@ public:
   // And without scatter. Neither this, nor measure_noiseless(), nor `add` is for a frame whose electrons the
   // device counts (Extras::electrons_at_once): they throw std::logic_error.
   Measurement measure_light(const Progress &progress = {}, const ExposureNumber &number = {});
+  // As Simulator::give_up_device(); nothing for the reference.
+  void give_up_device();
   // As Simulator::reuse().
   void reuse(Measurement &&frame);
 

@@ -233,8 +233,13 @@ std::uint64_t Capture::room_for_waiting(std::size_t part_bytes) const {
   const Camera &camera = exposures_.camera();
   std::uint64_t most = 0;
   for (const Sensor &sensor : setup_.start.sensors) {
-    const MemoryForecast forecast =
-        forecast_of(setup_, sensor, camera.extras(), camera.measured_by(), part_bytes);
+    const auto forecast_in = [&](std::uint32_t max_strip_samples) {
+      return forecast_of(setup_, sensor, camera.extras(), camera.measured_by(), part_bytes,
+                         max_strip_samples);
+    };
+    MemoryForecast forecast = forecast_in(0);
+    if (!camera.is_reference() && lack_of_memory(camera.further_bytes(forecast)))
+      forecast = forecast_in(short_strip_samples);
     const std::uint64_t further = camera.further_bytes(forecast);
     if (const auto lack = lack_of_memory(further))
       throw lacking_memory(sensor, forecast, *lack);

@@ -259,6 +259,8 @@ TakenFrame Exposures::take(std::size_t sensor, std::uint32_t number, Light light
     if (error.code() != ExitCode::device_lost || !loss_.empty())
       throw;
     loss_ = error.what();
+    camera_->give_up_device();
+    others_.give_up_devices();
   }
   return attempt();
 }

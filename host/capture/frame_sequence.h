@@ -65,9 +65,9 @@ public:
   // Measures those frames that no other process makes, frame by frame, and sensor by sensor in each, one at a
   // time though not always on the same thread, and writes the parts on threads of its own; `part_bytes` is
   // what the largest part holds, and those that wait to be written have `room`. A frame gets its names once
-  // the disk has it, with those of the half second before. Then waits for the others'. Where any of that
-  // fails, Error (interrupted) among others, whole frames stay with a manifest that lists just these; without
-  // any, nothing stays.
+  // the disk has it, with those of the half second before; one that ends sooner after those, with the next
+  // one. Then waits for the others'. Where any of that fails, Error (interrupted) among others, whole frames
+  // stay with a manifest that lists just these; without any, nothing stays.
   void write(const Measure &measure, std::size_t part_bytes, std::uint64_t room = UINT64_MAX);
 
   const RunHead &run() const { return run_; }

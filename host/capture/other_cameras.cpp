@@ -60,6 +60,11 @@ void OtherCameras::add_to(const Sensor &sensor, std::size_t frequency, std::size
   stopwatch.add_to(exposure, "other_cameras");
 }
 
+void OtherCameras::give_up_devices() {
+  for (Other &other : cameras_)
+    other.camera.give_up_device();
+}
+
 const OtherLight &OtherCameras::seen_by(Other &other, const Progress &progress) {
   if (!other.seen)
     other.seen =

@@ -31,6 +31,9 @@ public:
   void add_to(const Sensor &sensor, std::size_t frequency, std::size_t tap, double begin_s,
               const Progress &progress, Measurement &exposure, std::vector<float> &correlation);
 
+  // Each has a device of its own, and where one is lost the others most likely are.
+  void give_up_devices();
+
 private:
   // One for each frequency: a camera whose sensor sees nothing but its light, and what it has seen since it
   // was prepared.

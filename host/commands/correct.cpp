@@ -84,7 +84,8 @@ void refuse_other_run(const std::filesystem::path &directory) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
     return;
-  const auto manifest = parsed_in_order(read_regular_file(file, max_run_json_bytes, Place{file}));
+  const auto manifest =
+      parsed_in_order(read_regular_file(file, max_manifest_bytes, Place{file}), file, max_manifest_values);
   const std::string command = manifest && manifest->is_object() ? manifest->value("command", "") : "";
   if (!command.empty() && command != "correct")
     throw Error(ExitCode::output, fmt::format("{}: has the frames of `pmdsim {}`, expected another directory",

@@ -55,7 +55,7 @@ TEST_CASE("A disk that becomes full ends a run with the frames that fit") {
   CHECK(check_whole(out) < 40);
 }
 
-TEST_CASE("A quota that is used up ends a run with the frames that fit") {
+TEST_CASE("A quota that is used up ends a run with the frames that fit", "[no_sanitizer]") {
   const Sequence sequence(40);
   const fs::path out = sequence.work.path() / "out";
   RunOptions options;

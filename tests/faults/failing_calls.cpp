@@ -358,8 +358,12 @@ FAILING(file_write, ENOSPC, EOF, int, fputs, (const char *text, FILE *stream), (
 FAILING(file_write, ENOSPC, EOF, int, fflush, (FILE * stream), (stream))
 FAILING(file_sync, EIO, -1, int, fsync, (int descriptor), (descriptor))
 FAILING(file_sync, EIO, -1, int, fdatasync, (int descriptor), (descriptor))
+FAILING(file_sync, EIO, -1, int, syncfs, (int descriptor), (descriptor))
 FAILING(file_rename, EIO, -1, int, rename, (const char *from, const char *to), (from, to))
 FAILING(file_link, EIO, -1, int, link, (const char *from, const char *to), (from, to))
+FAILING(file_link, EIO, -1, int, linkat,
+        (int from_folder, const char *from, int to_folder, const char *to, int flags),
+        (from_folder, from, to_folder, to, flags))
 FAILING(file_unlink, EIO, -1, int, unlink, (const char *path), (path))
 FAILING(file_unlink, EIO, -1, int, remove, (const char *path), (path))
 FAILING(file_mkdir, EIO, -1, int, mkdir, (const char *path, mode_t mode), (path, mode))

@@ -1,6 +1,6 @@
 // A Vulkan layer: calls of the device fail as tests/faults/plan.h tells, by their names, "vkQueueSubmit2:3"
-// say. Every call that the program makes and that returns a VkResult is here. Instance and device are one at
-// a time.
+// say. Every call that the program makes and that returns a VkResult is here. Where a device is lost all that
+// the process has are, as when a GPU is reset, until they are made anew. Instances share a driver.
 
 #include "tests/faults/plan.h"
 
@@ -8,6 +8,9 @@
 #include <array>
 #include <atomic>
 #include <cstdio>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <string_view>
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -15,17 +18,50 @@
 namespace pmdsim::faults {
 namespace {
 
-const Plan plan = plan_of(std::getenv(plan_variable));
+const std::array<Plan, 2> plans = plans_of(std::getenv(plan_variable));
 
 std::atomic<bool> has_failed{false};
 
-bool fails(const char *called, long number) {
-  const bool now = plan.fails(called, number);
-  has_failed = has_failed || now;
-  return now;
+// What the call returns instead of being made.
+std::optional<VkResult> failure_of(const char *called, long number, VkResult usual) {
+  for (const Plan &plan : plans)
+    if (plan.fails(called, number)) {
+      has_failed = true;
+      return plan.code != 0 ? static_cast<VkResult>(plan.code) : usual;
+    }
+  return std::nullopt;
 }
 
-VkResult result_of(VkResult usual) { return plan.code != 0 ? static_cast<VkResult>(plan.code) : usual; }
+// The loader's table for a device, which its queues and command buffers point to as well.
+template <class Handle>
+const void *device_of(Handle handle) {
+  return *reinterpret_cast<const void *const *>(handle);
+}
+
+class Devices {
+public:
+  void add(const void *device) {
+    const std::scoped_lock lock(mutex_);
+    there_.insert(device);
+    lost_.erase(device);
+  }
+  void remove(const void *device) {
+    const std::scoped_lock lock(mutex_);
+    there_.erase(device);
+  }
+  void lose_all() {
+    const std::scoped_lock lock(mutex_);
+    lost_.insert(there_.begin(), there_.end());
+  }
+  bool has_lost(const void *device) {
+    const std::scoped_lock lock(mutex_);
+    return lost_.contains(device);
+  }
+
+private:
+  std::mutex mutex_;
+  std::set<const void *> there_, lost_;
+} devices_there;
 
 template <std::size_t N>
 struct Name {
@@ -37,14 +73,21 @@ struct Name {
 template <Name name, VkResult usual, class Function>
 struct FailingCall;
 
-template <Name name, VkResult usual, class... Arguments>
-struct FailingCall<name, usual, VkResult(VKAPI_PTR *)(Arguments...)> {
-  using Function = VkResult(VKAPI_PTR *)(Arguments...);
+template <Name name, VkResult usual, class Handle, class... Arguments>
+struct FailingCall<name, usual, VkResult(VKAPI_PTR *)(Handle, Arguments...)> {
+  using Function = VkResult(VKAPI_PTR *)(Handle, Arguments...);
   static inline std::atomic<Function> next{nullptr};
   static inline std::atomic<long> calls{0};
 
-  static VkResult VKAPI_CALL call(Arguments... arguments) {
-    return fails(name.text, ++calls) ? result_of(usual) : next.load()(arguments...);
+  static VkResult VKAPI_CALL call(Handle handle, Arguments... arguments) {
+    if (const auto failure = failure_of(name.text, ++calls, usual)) {
+      if (*failure == VK_ERROR_DEVICE_LOST)
+        devices_there.lose_all();
+      return *failure;
+    }
+    if (usual == VK_ERROR_DEVICE_LOST && devices_there.has_lost(device_of(handle)))
+      return VK_ERROR_DEVICE_LOST;
+    return next.load()(handle, arguments...);
   }
 };
 
@@ -117,8 +160,8 @@ Link *link_of(const Info *create_info, VkStructureType type) {
 
 VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo *info, const VkAllocationCallbacks *with,
                                     VkInstance *created) {
-  if (fails("vkCreateInstance", ++instances))
-    return result_of(VK_ERROR_INITIALIZATION_FAILED);
+  if (const auto failure = failure_of("vkCreateInstance", ++instances, VK_ERROR_INITIALIZATION_FAILED))
+    return *failure;
   auto *link = link_of<VkLayerInstanceCreateInfo>(info, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
   next_of_instance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
@@ -135,17 +178,26 @@ VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo *info, const VkAl
 
 VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo *info,
                                   const VkAllocationCallbacks *with, VkDevice *created) {
-  if (fails("vkCreateDevice", ++devices))
-    return result_of(VK_ERROR_INITIALIZATION_FAILED);
+  if (const auto failure = failure_of("vkCreateDevice", ++devices, VK_ERROR_INITIALIZATION_FAILED))
+    return *failure;
   auto *link = link_of<VkLayerDeviceCreateInfo>(info, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
   next_of_device = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
   const auto create = reinterpret_cast<PFN_vkCreateDevice>(next_of_instance(instance, "vkCreateDevice"));
   const VkResult result = create(physical, info, with, created);
-  if (result == VK_SUCCESS)
+  if (result == VK_SUCCESS) {
     for (const Entry &entry : device_calls)
       entry.set_next(next_of_device(*created, entry.name));
+    devices_there.add(device_of(*created));
+  }
   return result;
+}
+
+void VKAPI_CALL destroy_device(VkDevice device, const VkAllocationCallbacks *with) {
+  const auto destroy = reinterpret_cast<PFN_vkDestroyDevice>(next_of_device(device, "vkDestroyDevice"));
+  if (device != VK_NULL_HANDLE)
+    devices_there.remove(device_of(device));
+  destroy(device, with);
 }
 
 PFN_vkVoidFunction get_device_call(VkDevice device, const char *name);
@@ -162,6 +214,8 @@ PFN_vkVoidFunction own_call(std::string_view name) {
     return reinterpret_cast<PFN_vkVoidFunction>(create_instance);
   if (name == "vkCreateDevice")
     return reinterpret_cast<PFN_vkVoidFunction>(create_device);
+  if (name == "vkDestroyDevice")
+    return reinterpret_cast<PFN_vkVoidFunction>(destroy_device);
   if (name == "vkGetDeviceProcAddr")
     return reinterpret_cast<PFN_vkVoidFunction>(get_device_call);
   return name == "vkGetInstanceProcAddr" ? reinterpret_cast<PFN_vkVoidFunction>(get_instance_call) : nullptr;

@@ -2,8 +2,9 @@
 // Which call is to fail: the environment variable PMDSIM_FAULT names it to the libraries of this folder,
 // which are loaded into the program beside its own. "KIND:N" is the N-th call of a kind (malloc, open, write,
 // vkQueueSubmit2 and so on; from 1), "KIND:N+" that and all after it, "KIND:N:CODE" gives errno or VkResult
-// instead of the usual one.
+// instead of the usual one. Of calls of the device there may be two, with a comma between them.
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
 
@@ -37,6 +38,11 @@ inline Plan plan_of(const char *text) {
   rest += plan.all_after ? 1 : 0;
   plan.code = *rest == ':' ? std::atoi(rest + 1) : 0;
   return plan;
+}
+
+inline std::array<Plan, 2> plans_of(const char *text) {
+  const char *comma = text ? std::strchr(text, ',') : nullptr;
+  return {plan_of(text), plan_of(comma ? comma + 1 : nullptr)};
 }
 
 } // namespace pmdsim::faults

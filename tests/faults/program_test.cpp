@@ -38,13 +38,13 @@ void check_survived(const Workload &workload, const std::map<std::string, std::s
 
 } // namespace
 
-TEST_CASE("Calls that fail while frames are rendered end the run well") {
+TEST_CASE("Calls that fail while frames are rendered end the run well", "[no_sanitizer]") {
   const Folder folder;
   // Of the tens of thousands of allocations few, whose order changes with the threads.
   check_survived(render(folder, "cpu"), {{"malloc", 12}}, 1);
 }
 
-TEST_CASE("Where no thread can be started, one does all") {
+TEST_CASE("Where no thread can be started, one does all", "[no_sanitizer]") {
   const Folder folder;
   for (const char *device : {"cpu", "reference"}) {
     INFO(device);

@@ -2,14 +2,16 @@
 # runtimes that a program needs, as Python, that is not instrumented and loads a library that is.
 set(sanitizer_environment)
 set(sanitizer_preloaded)
-if(PMDSIM_SANITIZE STREQUAL address)
+if(PMDSIM_SANITIZE STREQUAL "address")
+  add_library(keep_loaded MODULE ${CMAKE_CURRENT_LIST_DIR}/keep_loaded.cpp)
   # Leaks are looked for in every program; what others' libraries keep is in leaks.supp, one by one.
   list(APPEND sanitizer_environment
-       ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:strict_init_order=1
+       ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:strict_init_order=1:verify_asan_link_order=0
        LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/leaks.supp:print_suppressions=0
-       UBSAN_OPTIONS=print_stacktrace=1)
+       UBSAN_OPTIONS=print_stacktrace=1
+       LD_PRELOAD=$<TARGET_FILE:keep_loaded>)
   set(runtimes asan stdc++)
-elseif(PMDSIM_SANITIZE STREQUAL thread)
+elseif(PMDSIM_SANITIZE STREQUAL "thread")
   # TBB, Embree and lavapipe's LLVM are not instrumented: what happens inside of them and between them is not seen.
   list(APPEND sanitizer_environment TSAN_OPTIONS=ignore_noninstrumented_modules=1:second_deadlock_stack=1)
   set(runtimes tsan stdc++)

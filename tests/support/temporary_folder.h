@@ -12,8 +12,8 @@ namespace pmdsim::test {
 
 class TemporaryFolder {
 public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "pmdsim-test-XXXXXX").string();
+  explicit TemporaryFolder(const std::filesystem::path &parent = std::filesystem::temp_directory_path()) {
+    std::string name = (parent / "pmdsim-test-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
       throw std::runtime_error("no temporary folder: " + name);
     path_ = name;

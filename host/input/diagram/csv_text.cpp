@@ -63,7 +63,10 @@ std::string unknown_columns_text(const std::vector<std::string_view> &header,
   const auto middle = known.begin() + static_cast<std::ptrdiff_t>(std::min(required, known.size()));
   return fmt::format("unknown column{} {}; the columns are {}{}{}", unknown.size() == 1 ? "" : "s",
                      fmt::join(unknown, "; "), fmt::join(known.begin(), middle, ","),
-                     middle == known.end() ? "" : " and perhaps ", fmt::join(middle, known.end(), ","));
+                     middle == known.end()     ? ""
+                     : middle == known.begin() ? "some of "
+                                               : " and perhaps ",
+                     fmt::join(middle, known.end(), ","));
 }
 
 std::string missing_columns_text(const std::vector<std::string> &missing) {

@@ -2,6 +2,7 @@
 
 #include "host/input/diagram/diagram_table.h"
 #include "host/input/file/input_file.h"
+#include "host/input/file/inside_folder.h"
 #include "host/input/schema/schema_check.h"
 #include "host/input/words/file_kind.h"
 #include "host/input/words/near_file.h"
@@ -105,7 +106,15 @@ Pattern law_in_field(std::string_view field, const TextPlace &place, DiagramFile
                  ? numbered(law, number_of(field.substr(key.size() + 1), "pattern", place, limits_of(law)))
                  : numbered(law, 0.0);
   const std::filesystem::path file = place.file.parent_path() / field;
-  std::error_code ignored;
+  std::error_code unresolved, ignored;
+  const bool is_inside = lies_inside(place.file.parent_path(), field, unresolved);
+  if (unresolved)
+    throw input_error(place, fmt::format("pattern: {}: {}", in_quotes(field), unresolved.message()));
+  if (!is_inside)
+    throw input_error(place,
+                      fmt::format("pattern: {} lies outside the table's folder, expected a file there; "
+                                  "a setup's \"pattern\" may name others",
+                                  in_quotes(field)));
   if (std::filesystem::status(file, ignored).type() == std::filesystem::file_type::not_found)
     throw input_error(place, fmt::format("pattern: {}, found {}: no such file{}", pattern_expected,
                                          in_quotes(field), hint_of_pattern(field, file)));

@@ -39,7 +39,7 @@ private:
 Pattern law_in_setup(const nlohmann::ordered_json &pattern, const Place &place, DiagramFiles &diagrams);
 
 // The law of a table's field: a key, a key and its number with a blank between them, a number alone, which is
-// a cosine's order, or the name of a diagram's file, relative to the table's folder. Throws Error (input).
+// a cosine's order, or the name of a diagram's file, in the table's folder or below. Throws Error (input).
 Pattern law_in_field(std::string_view field, const TextPlace &place, DiagramFiles &diagrams);
 
 } // namespace pmdsim

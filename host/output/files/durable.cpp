@@ -34,4 +34,9 @@ void sync_file_system(const std::filesystem::path &directory) { sync(directory, 
 
 void sync_names(const std::filesystem::path &directory) { sync(directory, ::fsync); }
 
+void sync_file(int descriptor, const std::filesystem::path &file) {
+  if (::fsync(descriptor) != 0 && !means_not_able(errno))
+    throw write_error(file, errno);
+}
+
 } // namespace pmdsim

@@ -11,7 +11,8 @@ namespace pmdsim {
 // also an earlier one that seemed to succeed. File systems that cannot are believed.
 void sync_file_system(const std::filesystem::path &directory);
 
-// The same of the names in the directory alone.
+// The same of the names in the directory alone, and of the file that is open as `descriptor`.
 void sync_names(const std::filesystem::path &directory);
+void sync_file(int descriptor, const std::filesystem::path &file);
 
 } // namespace pmdsim

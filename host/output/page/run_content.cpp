@@ -56,6 +56,9 @@ void add_frame(RunContent &run, std::map<std::string, std::size_t> &place_of, co
   fs::path file = file_with_channels(run.directory, names_of(entry));
   if (file.empty())
     throw no_channels(manifest, name, number);
+  if (std::error_code ignored; fs::is_symlink(file, ignored)) // to whatever it leads
+    throw input_error(Place{manifest}, fmt::format("{}, frame {}: {} is a link, expected a file",
+                                                   in_quotes(name), number, file.filename().string()));
   const auto [place, is_new] = place_of.try_emplace(name, run.sensors.size());
   if (is_new)
     run.sensors.push_back({name, {}});
@@ -66,11 +69,11 @@ void add_frame(RunContent &run, std::map<std::string, std::size_t> &place_of, co
 ordered_json parsed_manifest(const fs::path &file) {
   std::string text;
   try {
-    text = read_regular_file(file, max_run_json_bytes, Place{file});
+    text = read_regular_file(file, max_manifest_bytes, Place{file});
   } catch (const Error &error) {
     throw Error(error.code(), fmt::format("{}, {}", error.what(), expected), error.where());
   }
-  auto manifest = parsed_in_order(text);
+  auto manifest = parsed_in_order(text, file, max_manifest_values);
   if (!manifest || !manifest->is_object())
     throw input_error(Place{file}, fmt::format("is no manifest, {}", expected));
   return std::move(*manifest);

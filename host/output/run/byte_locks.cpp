@@ -1,5 +1,6 @@
 #include "host/output/run/byte_locks.h"
 
+#include "host/output/files/durable.h"
 #include "host/output/files/output_file.h"
 
 #include <algorithm>
@@ -102,6 +103,7 @@ void ByteLocks::write(std::string_view text, const std::filesystem::path &path) 
       throw write_error(path, errno);
     text.remove_prefix(static_cast<std::size_t>(count));
   }
+  sync_file(descriptor_, path);
 }
 
 } // namespace pmdsim

@@ -36,7 +36,7 @@ public:
   bool is_at(const std::filesystem::path &path) const;
   // Its first bytes, so many at most.
   std::string content(std::size_t max_bytes) const;
-  // Throws Error (output) that names `path`.
+  // Returns when the disk has it. Throws Error (output) that names `path`.
   void write(std::string_view text, const std::filesystem::path &path) const;
 
 private:

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <system_error>
 
 namespace pmdsim {
@@ -103,16 +105,14 @@ Error unreadable(const fs::path &path, const std::error_code &error) {
   return {ExitCode::output, fmt::format("{}: cannot be read: {}", path.string(), error.message())};
 }
 
+// A link is no frame's file, as what it leads to need not be one either.
 bool is_file_of(const fs::path &path, std::uint64_t bytes) {
-  static constexpr std::array is_no_file{
-      std::errc::no_such_file_or_directory, std::errc::not_a_directory, std::errc::is_a_directory,
-      std::errc::not_supported, // as libstdc++ has it of pipes and the like
-      std::errc::too_many_symbolic_link_levels};
-  std::error_code error;
-  const std::uintmax_t there = fs::file_size(path, error);
-  if (error && std::ranges::none_of(is_no_file, [&](std::errc one) { return error == one; }))
-    throw unreadable(path, error);
-  return !error && there == bytes;
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) == 0)
+    return S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) == bytes;
+  if (errno != ENOENT && errno != ENOTDIR)
+    throw unreadable(path, std::error_code(errno, std::generic_category()));
+  return false;
 }
 
 } // namespace
@@ -131,7 +131,7 @@ std::optional<ordered_json> read_record(const fs::path &folder, std::uint32_t fr
                                         const std::string &run_hash) {
   const fs::path file = folder / record_name(frame);
   const std::optional<std::string> text = text_of(file);
-  auto record = text ? parsed_in_order(*text) : std::nullopt; // a power cut may leave half of it
+  auto record = text ? parsed_in_order(*text, file) : std::nullopt; // a power cut may leave half of it
   try {
     if (record && record->at("run") == run_hash && has_its_form(*record, frame))
       return record;

@@ -2,7 +2,9 @@
 
 #include "engine/model/error.h"
 #include "host/input/file/input_error.h"
+#include "host/output/files/durable.h"
 #include "host/output/files/manifest.h"
+#include "host/output/files/output_set.h"
 #include "host/output/run/run_folder.h"
 
 #include <algorithm>
@@ -11,9 +13,12 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <memory>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace pmdsim {
 namespace {
@@ -22,6 +27,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr auto time_between_tries = std::chrono::milliseconds(10);
+constexpr auto time_between_syncs = std::chrono::milliseconds(500); // each takes about 10 ms
 
 // A folder that nobody begins another run in while it is read.
 struct Source {
@@ -154,35 +160,107 @@ void refuse_missing(const FrameRange &frames, const std::vector<std::size_t> &pl
                           missing == 1 ? "is" : "are", missing_text(frames, places)));
 }
 
-// Links or copies it, under its name at once. Whether it is a link.
-bool bring(const fs::path &from, const fs::path &to) {
-  const fs::path temporary = temporary_name(to);
-  const bool linked = ::linkat(AT_FDCWD, from.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) == 0;
-  std::error_code error;
-  if (!linked)
-    fs::copy_file(from, temporary, error);
-  if (!error)
-    fs::rename(temporary, to, error);
-  ::unlink(temporary.c_str()); // where both are links to one file, renaming leaves it
-  if (error)
-    throw write_error(to, error.value());
-  return linked;
+// A file of a frame that is the source's own, under a temporary name. The disk has what it holds.
+struct Linked {
+  fs::path temporary, name;
+
+  // Its file system may have no links, or be another.
+  static std::optional<Linked> made(const fs::path &from, const fs::path &name) {
+    Linked file{temporary_name(name), name};
+    if (::linkat(AT_FDCWD, from.c_str(), AT_FDCWD, file.temporary.c_str(), 0) != 0)
+      return std::nullopt;
+    return file;
+  }
+  void give_name() const {
+    std::error_code error;
+    fs::rename(temporary, name, error);
+    remove(); // where both are links to one file, renaming leaves it
+    if (error)
+      throw write_error(name, error.value());
+  }
+  void remove() const { ::unlink(temporary.c_str()); }
+};
+
+void copy(const fs::path &from, OutputFile &to) {
+  constexpr std::size_t block_bytes = std::size_t{1} << 20;
+  const int descriptor = ::open(from.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  std::string block(block_bytes, '\0');
+  ssize_t count = descriptor < 0 ? -1 : 0;
+  while (descriptor >= 0 && (count = ::read(descriptor, block.data(), block.size())) > 0)
+    to.write({block.data(), static_cast<std::size_t>(count)});
+  const int error_number = errno;
+  if (descriptor >= 0)
+    ::close(descriptor);
+  if (count < 0)
+    throw Error(ExitCode::input, fmt::format("{}: cannot be read: {}", from.string(),
+                                             std::generic_category().message(error_number)));
 }
 
-void bring_frame(const Source &source, std::uint32_t frame, RunFolder &into, Merged &merged) {
-  if (into.claim(frame) != RunFolder::Claim::granted)
-    return; // a process that is at the same run there makes it, or has
-  const auto record = record_of(source, frame);
-  if (!record)
-    throw Error(ExitCode::input, fmt::format("{}: frame {} has gone", source.path.string(), frame));
-  remove_file(into.path() / record_name(frame)); // it must not speak for the files that come
-  for (const ordered_json &sensor : record->at("sensors"))
-    for (const std::string name : sensor.at("manifest").at("outputs"))
-      ++(bring(source.path / name, into.path() / name) ? merged.linked : merged.copied);
-  OutputSet of_record(into.path());
-  RunFolder::add_record(of_record, *record);
-  into.publish(of_record, frame);
-}
+// A frame whose files have no names yet.
+struct Brought {
+  Brought(std::uint32_t number, const fs::path &directory) : frame(number), copies(directory) {}
+  ~Brought() {
+    for (const Linked &file : links)
+      file.remove();
+  }
+  Brought(const Brought &) = delete;
+  Brought &operator=(const Brought &) = delete;
+
+  std::uint32_t frame;
+  std::vector<Linked> links{};
+  OutputSet copies; // and its record
+};
+
+// Frames that come into a folder, those of some time together, as the disk takes many files as fast as one.
+class Bringing {
+public:
+  Bringing(RunFolder &into, Merged &merged) : into_(into), merged_(merged) {}
+
+  void bring(const Source &source, std::uint32_t frame) {
+    if (into_.claim(frame) != RunFolder::Claim::granted)
+      return; // a process that is at the same run there makes it, or has
+    const auto record = record_of(source, frame);
+    if (!record)
+      throw Error(ExitCode::input, fmt::format("{}: frame {} has gone", source.path.string(), frame));
+    auto brought = std::make_unique<Brought>(frame, into_.path());
+    for (const ordered_json &sensor : record->at("sensors"))
+      for (const std::string name : sensor.at("manifest").at("outputs"))
+        bring_file(source.path / name, name, *brought);
+    RunFolder::add_record(brought->copies, *record);
+    waiting_.push_back(std::move(brought));
+    if (std::chrono::steady_clock::now() - published_ >= time_between_syncs)
+      publish();
+  }
+
+  void publish() {
+    const auto frames = std::exchange(waiting_, {});
+    sync_file_system(into_.path());
+    for (const auto &brought : frames) {
+      remove_file(into_.path() / record_name(brought->frame)); // it must not speak for the files that come
+      for (const Linked &file : brought->links)
+        file.give_name();
+      into_.publish(brought->copies, brought->frame);
+    }
+    sync_names(into_.path());
+    published_ = std::chrono::steady_clock::now();
+  }
+
+private:
+  void bring_file(const fs::path &from, const std::string &name, Brought &brought) {
+    if (auto linked = Linked::made(from, into_.path() / name)) {
+      brought.links.push_back(std::move(*linked));
+      ++merged_.linked;
+    } else {
+      brought.copies.add(name, [&](OutputFile &file) { copy(from, file); });
+      ++merged_.copied;
+    }
+  }
+
+  RunFolder &into_;
+  Merged &merged_;
+  std::vector<std::unique_ptr<Brought>> waiting_;
+  std::chrono::steady_clock::time_point published_ = std::chrono::steady_clock::now();
+};
 
 } // namespace
 
@@ -194,10 +272,12 @@ Merged merge_runs(const MergeRequest &request, const std::function<void()> &chec
   RunFolder into(request.into, sources.front().run, frames, RunFolder::Earlier::made_again, check);
   Merged merged{into.run().hash};
   try {
+    Bringing bringing(into, merged);
     for (std::size_t i = 0; i < places.size(); ++i) {
       check();
-      bring_frame(sources[places[i]], frames.at(i), into, merged);
+      bringing.bring(sources[places[i]], frames.at(i));
     }
+    bringing.publish();
   } catch (const Error &) {
     into.keep_whole_frames();
     throw;

@@ -114,7 +114,8 @@ bool RunFolder::enter(const FrameRange &frames, Earlier earlier) {
 
 // The run's file is a new one each time, as it tells who has begun; the old one stays locked until then.
 bool RunFolder::enter_alone(ByteLocks there, const FrameRange &frames, Earlier earlier) {
-  const std::optional<RunFile> found = parsed_run_file(there.content(max_run_json_bytes));
+  const std::optional<RunFile> found =
+      parsed_run_file(there.content(max_run_json_bytes), path() / run_file_name);
   const bool same_run = found && found->run == run_;
   if (!same_run && earlier == Earlier::kept)
     throw Error(ExitCode::input, fmt::format("{}: --resume: it holds another run: {}", path().string(),
@@ -129,7 +130,8 @@ bool RunFolder::enter_alone(ByteLocks there, const FrameRange &frames, Earlier e
 }
 
 bool RunFolder::enter_beside_others(ByteLocks there) {
-  const std::optional<RunFile> found = parsed_run_file(there.content(max_run_json_bytes));
+  const std::optional<RunFile> found =
+      parsed_run_file(there.content(max_run_json_bytes), path() / run_file_name);
   if (found && found->run == run_) {
     joined_ = true;
     locks_ = std::move(there);

@@ -99,9 +99,9 @@ std::string run_file_text(const RunIdentity &run, const Beginner &beginner) {
   return json_text(json);
 }
 
-std::optional<RunFile> parsed_run_file(const std::string &text) {
+std::optional<RunFile> parsed_run_file(const std::string &text, const std::filesystem::path &named) {
   try {
-    std::optional<ordered_json> json = parsed_in_order(text);
+    std::optional<ordered_json> json = parsed_in_order(text, named);
     if (!json)
       return std::nullopt;
     const ordered_json begun = json->at("begun_by");
@@ -130,7 +130,7 @@ RunFile read_run_file(const std::filesystem::path &folder) {
   } catch (const Error &error) {
     throw Error(error.code(), fmt::format("{}, {}", error.what(), expected));
   }
-  const auto found = parsed_run_file(text);
+  const auto found = parsed_run_file(text, file);
   if (!found)
     throw input_error(Place{file}, fmt::format("is not a run's file, {}", expected));
   return *found;

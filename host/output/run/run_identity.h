@@ -38,7 +38,8 @@ struct RunFile {
 };
 // Nothing where the text is not that of such a file. Of the head only `inputs` is looked at: where there are
 // any, they name files.
-std::optional<RunFile> parsed_run_file(const std::string &text);
+// `file` is what messages name.
+std::optional<RunFile> parsed_run_file(const std::string &text, const std::filesystem::path &file);
 // Of a folder. Throws Error (input) where it has none, or one that is no regular file.
 RunFile read_run_file(const std::filesystem::path &folder);
 

@@ -24,7 +24,9 @@ FUZZ_TARGET(json) {
     if (parse_json(written, "file.json", Comments::refused) != json)
       std::abort(); // what it wrote means another thing
   }
-  if (const auto in_order = parsed_in_order(std::string(text)))
-    static_cast<void>(in_order->dump());
+  fuzz::accepts([&] {
+    if (const auto in_order = parsed_in_order(std::string(text), "document.json"))
+      static_cast<void>(in_order->dump());
+  });
   return 0;
 }

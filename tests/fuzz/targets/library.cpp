@@ -205,6 +205,10 @@ private:
         check(pmdsim_frame_destroy(frame));
       frame = nullptr;
       check(pmdsim_frame_read(fuzz::write_file("frame.exr", content).c_str(), &frame));
+      check(pmdsim_simulator_allow_outside(simulator, static_cast<int>(content.size() % 3)));
+      check(pmdsim_simulator_load(simulator, fuzz::write_file("setup.json", content).c_str()));
+      fuzz::write_file("manifest.json", content);
+      check(pmdsim_report(folder_.c_str(), nullptr, 1.0, &text));
     }
     }
   }

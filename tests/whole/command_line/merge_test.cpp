@@ -91,6 +91,35 @@ TEST_CASE("a merge with frames missing is refused, tells them and writes nothing
   CHECK_FALSE(std::filesystem::exists(shards.work / "out"));
 }
 
+TEST_CASE("a link is no frame's file, whatever it leads to") {
+  const Shards shards;
+  const std::string file = shards.work / "shard1/second_0004.exr", elsewhere = shards.work / "elsewhere";
+  std::filesystem::rename(file, elsewhere);
+  std::filesystem::create_symlink(elsewhere, file);
+  check_refusal(run_pmdsim(shards.merging()), 3, {"missing is: 4\n"});
+  CHECK(std::filesystem::hard_link_count(elsewhere) == 1);
+}
+
+TEST_CASE("what cannot be linked is copied") {
+  const std::filesystem::path other_disk = "/dev/shm";
+  if (!std::filesystem::is_directory(other_disk)) {
+    WARN("there is no /dev/shm");
+    return;
+  }
+  const Shards shards;
+  shards.run_well("alone");
+  const TemporaryFolder there(other_disk);
+  std::vector<std::string> merging{
+      "merge", shards.work / "shard0",         shards.work / "shard1", shards.work / "shard2", "--json",
+      "-o",    (there.path() / "out").string()};
+  const Run run = run_pmdsim(merging);
+  INFO(run.errors);
+  REQUIRE(run.exit_code == 0);
+  CHECK(json::parse(run.output)["copied"].get<int>() > 50);
+  std::filesystem::copy(there.path() / "out", shards.work / "out");
+  shards.check_same("out", "alone");
+}
+
 TEST_CASE("folders of different runs, and such as hold none, are not merged") {
   const Shards shards;
   std::vector<std::string> arguments = shards.merging();

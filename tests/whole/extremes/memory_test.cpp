@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 using namespace pmdsim::test;
 
@@ -54,7 +55,7 @@ std::vector<std::string> sized(int pixels, const std::vector<std::string> &more 
 
 } // namespace
 
-TEST_CASE("forecasts of memory are right within a factor of two, and not much too low") {
+TEST_CASE("forecasts of memory are right within a factor of two, and not much too low", "[no_sanitizer]") {
   const std::string room = scene("room.json");
   compare_memory("the room", room);
   compare_memory("the room, 2048 x 2048", room, sized(2048));
@@ -105,6 +106,33 @@ TEST_CASE("what does not fit is refused before it is begun, and what fits stays 
   INFO(done.errors);
   CHECK(done.exit_code == 0);
   CHECK(done.peak_resident_bytes < 1'500'000'000);
+}
+
+TEST_CASE("strips become shorter before a frame is refused", "[no_sanitizer]") {
+  const Workspace work;
+  std::vector<std::string> set;
+  for (const std::string &change : sized(1800))
+    set.insert(set.end(), {"--set", change});
+  const Run check = run_well({"check", scene("room.json"), "--json"}, set);
+  const double with_usual_strips = nlohmann::json::parse(check.output).at("memory").at("bytes").get<double>();
+
+  std::vector<std::string> render{"render", scene("room.json"), "-o", work / "out"};
+  render.insert(render.end(), set.begin(), set.end());
+  const auto within = [&](const std::string &limit) {
+    std::vector<std::string> arguments = render;
+    arguments.insert(arguments.end(), {"--max-memory", limit});
+    return run_pmdsim(arguments, as_users);
+  };
+  const Run refused = within("100 MB");
+  std::smatch megabytes;
+  REQUIRE(std::regex_search(refused.errors, megabytes,
+                            std::regex(R"(needs ([0-9.]+) MB beside the ([0-9.]+) MB)")));
+  const int limit_mb = 10 + static_cast<int>(std::stod(megabytes[1]) + std::stod(megabytes[2]));
+  CHECK(1e6 * limit_mb < with_usual_strips);
+  const Run done = within(fmt::format("{} MB", limit_mb));
+  INFO(done.errors);
+  CHECK(done.exit_code == 0);
+  CHECK(done.peak_resident_bytes < std::int64_t{1'000'000} * limit_mb);
 }
 
 TEST_CASE("scenes and tables are within the limit, too") {

@@ -1,6 +1,7 @@
 #include "host/input/gltf/data/buffers.h"
 
 #include "host/input/file/input_file.h"
+#include "host/input/file/inside_folder.h"
 #include "host/input/file/memory_request.h"
 #include "host/input/gltf/data/meshopt.h"
 
@@ -48,19 +49,13 @@ bool has_scheme(std::string_view uri) {
          std::all_of(scheme.begin(), scheme.end(), is_allowed);
 }
 
-bool lies_inside(const fs::path &folder, const fs::path &file) {
-  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-}
-
 // `name` is what the URI at `place` says, decoded.
 void refuse_outside(const fs::path &name, const std::string &uri, const Place &place) {
-  const fs::path folder = place.file.has_parent_path() ? place.file.parent_path() : ".";
   std::error_code unresolved;
-  const fs::path inside = fs::weakly_canonical(folder, unresolved);
-  const fs::path file = unresolved ? fs::path{} : fs::weakly_canonical(folder / name, unresolved);
+  const bool is_inside = lies_inside(place.file.parent_path(), name, unresolved);
   if (unresolved)
     throw input_error(place, fmt::format("{}: {}", in_quotes(uri), unresolved.message()));
-  if (name.is_absolute() || !lies_inside(inside, file))
+  if (!is_inside)
     throw input_error(place, fmt::format("{} lies outside the scene's folder; put it there, or allow it "
                                          "({}) where you trust the scene",
                                          in_quotes(uri), allow_outside_words));

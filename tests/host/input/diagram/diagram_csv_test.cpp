@@ -99,7 +99,9 @@ TEST_CASE("What is wrong in a diagram's table is named with its line") {
   CHECK_THAT(csv_error("angle_deg\n0\n"), EndsWith(header));
   CHECK_THAT(csv_error("phi_deg,relative\n0,1\n"), EndsWith(header));
   CHECK_THAT(csv_error("angle_deg,phi_deg,relative\n0,0,1\n"), EndsWith(header));
-  CHECK_THAT(csv_error("angle_deg,relative,colour\n"), Contains("led.csv:1: unknown column \"colour\""));
+  CHECK_THAT(csv_error("angle_deg,relative,colour\n"),
+             EndsWith("led.csv:1: unknown column \"colour\"; the columns are some of "
+                      "angle_deg,theta_deg,phi_deg,relative"));
   CHECK_THAT(csv_error("angle_deg,relative,relative\n"),
              EndsWith("led.csv:1: column relative appears twice"));
   CHECK_THAT(csv_error(one), EndsWith("led.csv:2: expected at least two angles to the axis"));

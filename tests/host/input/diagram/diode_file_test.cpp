@@ -100,6 +100,17 @@ TEST_CASE("What is wrong in a diode file is named with its line") {
   CHECK_THAT(diodes_error(header + "\n"), EndsWith(":3: expected at least one diode"));
 }
 
+TEST_CASE("A table's diagrams lie in its folder or below") {
+  for (const std::string file : {"/etc/passwd", "../led.csv", "below/../../led.csv"})
+    CHECK_THAT(
+        diodes_error(header + "0,0,0,0,0,1,1," + file + "\n"),
+        EndsWith("diodes.csv:2: pattern: \"" + file +
+                 "\" lies outside the table's folder, expected a file there; a setup's \"pattern\" may "
+                 "name others"));
+  CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1," + std::string(300, 'x') + "\n"),
+             EndsWith(": File name too long"));
+}
+
 TEST_CASE("Blank lines are skipped and counted") {
   const std::string good = "0,0,0,0,0,1,1,isotropic\n";
   CHECK(read_diodes("\n" + header + "\n" + good + " \t\n\r\n" + good + "\n\n").size() == 2);
