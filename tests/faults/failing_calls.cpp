@@ -378,6 +378,8 @@ FAILING(file_reserve, ENOSPC, -1, int, fallocate, (int descriptor, int mode, off
 FAILING(file_reserve, ENOSPC, -1, int, fallocate64, (int descriptor, int mode, off64_t at, off64_t bytes),
         (descriptor, mode, at, bytes))
 FAILING(file_list, EACCES, nullptr, DIR *, opendir, (const char *path), (path))
+FAILING(file_list, EIO, nullptr, dirent *, readdir, (DIR * folder), (folder))
+FAILING(file_list, EIO, nullptr, dirent64 *, readdir64, (DIR * folder), (folder))
 
 // Closed it is, whatever it says: as Linux does it.
 EXPORTED int fclose(FILE *stream) {
