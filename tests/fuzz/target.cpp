@@ -44,7 +44,8 @@ const std::filesystem::path &folder() {
 std::filesystem::path write_file(const std::string &name, std::string_view bytes) {
   std::filesystem::path file = folder() / name;
   std::FILE *stream = std::fopen(file.c_str(), "wb");
-  if (stream == nullptr || std::fwrite(bytes.data(), 1, bytes.size(), stream) != bytes.size() ||
+  if (stream == nullptr ||
+      (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), stream) != bytes.size()) ||
       std::fclose(stream) != 0)
     throw std::runtime_error("cannot write " + file.string());
   return file;

@@ -20,7 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr unsigned longest_run_s = 1200;
+#else
 constexpr unsigned longest_run_s = 60;
+#endif
 
 std::string content(const fs::path &file) {
   std::ifstream in(file, std::ios::binary);

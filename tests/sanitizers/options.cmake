@@ -6,7 +6,7 @@ if(PMDSIM_SANITIZE STREQUAL "address")
   add_library(keep_loaded MODULE ${CMAKE_CURRENT_LIST_DIR}/keep_loaded.cpp)
   # Leaks are looked for in every program; what others' libraries keep is in leaks.supp, one by one.
   list(APPEND sanitizer_environment
-       ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:strict_init_order=1:verify_asan_link_order=0
+       ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:strict_init_order=1:verify_asan_link_order=0:allocator_may_return_null=1
        LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/leaks.supp:print_suppressions=0
        UBSAN_OPTIONS=print_stacktrace=1
        LD_PRELOAD=$<TARGET_FILE:keep_loaded>)
