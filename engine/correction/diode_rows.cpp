@@ -71,11 +71,11 @@ std::vector<DiodeRow> diode_rows(const Sensor &sensor, const std::vector<Illumin
   return rows;
 }
 
-Demodulation demodulation_of(const Sensor &sensor) {
+TapDemodulation demodulation_of(const Sensor &sensor) {
   const Waveform &waveform = sensor.waveform;
-  Demodulation demodulation;
+  TapDemodulation demodulation;
   if (waveform.kind == Waveform::Kind::square) {
-    demodulation.kind = Demodulation::Kind::square;
+    demodulation.kind = TapDemodulation::Kind::square;
     for (std::uint32_t k = 0; k < sensor.taps; ++k) {
       const double angle_rad = radians_per_turn * k / sensor.taps;
       demodulation.tap_cos.push_back(2.0 / sensor.taps * std::cos(angle_rad));
@@ -83,7 +83,7 @@ Demodulation demodulation_of(const Sensor &sensor) {
     }
   }
   if (waveform.kind == Waveform::Kind::harmonics) {
-    demodulation.kind = Demodulation::Kind::harmonics;
+    demodulation.kind = TapDemodulation::Kind::harmonics;
     demodulation.forward.assign(waveform.harmonics.size() + 1, 0.0);
     demodulation.backward = demodulation.forward;
     for (std::size_t h = 1; h <= waveform.harmonics.size(); ++h) {

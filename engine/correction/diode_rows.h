@@ -31,7 +31,7 @@ struct DiodeRow {
 
 // What a camera takes for the return of a path of the phase x: a sine exp(j x); square light and harmonics by
 // its taps, (2/N) sum_k C(x - 2 pi k / N) exp(j 2 pi k / N).
-struct Demodulation {
+struct TapDemodulation {
   enum class Kind { sine, harmonics, square };
   Kind kind = Kind::sine;
   // Harmonics: a_h of exp(j h x), where h = 1 modulo N, and of exp(-j h x), where h = -1 modulo N; by h, from
@@ -41,6 +41,6 @@ struct Demodulation {
 };
 
 std::vector<DiodeRow> diode_rows(const Sensor &sensor, const std::vector<Illuminator> &illuminators);
-Demodulation demodulation_of(const Sensor &sensor);
+TapDemodulation demodulation_of(const Sensor &sensor);
 
 } // namespace pmdsim

@@ -18,12 +18,12 @@ public:
   }
 
   // Nothing where the pixels lie in a line, or are too few.
-  std::optional<Plane> plane(bool common_normal) const {
+  std::optional<FittedPlane> plane(bool common_normal) const {
     if (!is_possible_)
       return std::nullopt;
     constexpr int most_rounds = 30;
     constexpr double settled = 1e-11;
-    Plane plane{solve(points_.front().normal, false), 0.0, 0.0};
+    FittedPlane plane{solve(points_.front().normal, false), 0.0, 0.0};
     for (int round = 0; common_normal && round < most_rounds; ++round) {
       const glm::dvec3 before = plane.normal();
       plane.g = solve(before, true);
@@ -111,12 +111,12 @@ double Neighbourhood::gain() const {
   return glm::length(image_.per_normal_m[index(0, 0)]) / apart_m;
 }
 
-double residual_m(const Point &point, const Plane &plane) {
+double residual_m(const Point &point, const FittedPlane &plane) {
   const double range_m = point.range_for_m(plane.normal());
   return range_m * (range_m * glm::dot(plane.g, point.direction) - 1.0);
 }
 
-std::optional<Plane> fitted_plane(const Neighbourhood &around, const Window &window) {
+std::optional<FittedPlane> fitted_plane(const Neighbourhood &around, const Window &window) {
   return PlaneFit(around, window).plane(around.common_normal());
 }
 

@@ -25,7 +25,7 @@ struct Window {
 };
 
 // A plane's g in the frame of the pixel's ray, and how far it may be off.
-struct Plane {
+struct FittedPlane {
   glm::dvec3 g;
   double uncertainty_rad, residual_m;
 
@@ -102,9 +102,9 @@ private:
 };
 
 // Range minus that of the plane, to first order.
-double residual_m(const Point &point, const Plane &plane);
+double residual_m(const Point &point, const FittedPlane &plane);
 
 // Least squares of 1 / r over the points of a window. Nothing where the pixels lie in a line, or are too few.
-std::optional<Plane> fitted_plane(const Neighbourhood &around, const Window &window);
+std::optional<FittedPlane> fitted_plane(const Neighbourhood &around, const Window &window);
 
 } // namespace pmdsim

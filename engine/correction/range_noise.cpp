@@ -42,7 +42,7 @@ std::vector<double> inside(const RangeImage &image, ValueOf value_of) {
 
 double noise_of(const RangeImage &image) {
   const auto odd_parts = inside(image, [](const Neighbourhood &around) {
-    const std::optional<Plane> plane = fitted_plane(around, {-1, 1, -1, 1});
+    const std::optional<FittedPlane> plane = fitted_plane(around, {-1, 1, -1, 1});
     if (!plane)
       return std::numeric_limits<double>::max();
     double squares = 0.0;

@@ -37,7 +37,7 @@ public:
 
 private:
   std::vector<DiodeRow> rows_;
-  Demodulation demodulation_;
+  TapDemodulation demodulation_;
   double turns_per_m_, ambiguity_m_;
   bool lambert_, vignetting_;
 };

@@ -60,7 +60,7 @@ inline Demodulated sine(const Doubles &turns) {
   return {e, {-radians_per_turn * e.im, radians_per_turn * e.re}};
 }
 
-inline Demodulated harmonics(const Demodulation &by, const Doubles &turns) {
+inline Demodulated harmonics(const TapDemodulation &by, const Doubles &turns) {
   const Complexes e = unit_phasor(turns);
   Complexes power = e;
   Demodulated sum{};
@@ -76,7 +76,7 @@ inline Demodulated harmonics(const Demodulation &by, const Doubles &turns) {
 }
 
 // The triangle wave, +1 at 0 and -1 at half a turn.
-inline Demodulated square(const Demodulation &by, const Doubles &turns) {
+inline Demodulated square(const TapDemodulation &by, const Doubles &turns) {
   const auto taps = by.tap_cos.size();
   Demodulated sum{};
   for (std::size_t k = 0; k < taps; ++k) {
@@ -92,13 +92,13 @@ inline Demodulated square(const Demodulation &by, const Doubles &turns) {
   return sum;
 }
 
-inline Demodulated demodulated(const Demodulation &by, const Doubles &turns) {
+inline Demodulated demodulated(const TapDemodulation &by, const Doubles &turns) {
   switch (by.kind) {
-  case Demodulation::Kind::harmonics:
+  case TapDemodulation::Kind::harmonics:
     return harmonics(by, turns);
-  case Demodulation::Kind::square:
+  case TapDemodulation::Kind::square:
     return square(by, turns);
-  case Demodulation::Kind::sine:
+  case TapDemodulation::Kind::sine:
     break;
   }
   return sine(turns);

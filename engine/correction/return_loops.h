@@ -25,7 +25,7 @@ struct ModelReturn {
 
 struct ReturnWork {
   const std::vector<DiodeRow> &rows;
-  const Demodulation &demodulation;
+  const TapDemodulation &demodulation;
   double turns_per_m; // of the path: f / c
   bool lambert;       // else a surface that faces a diode scatters evenly
 };

@@ -30,7 +30,7 @@ struct OddPart {
   double offsets = 0.0;     // the sum of the squares of how far pixels lie from the middle, m^2
   bool is_known = false;
 };
-OddPart odd_part(const Neighbourhood &around, int n, const Plane &plane) {
+OddPart odd_part(const Neighbourhood &around, int n, const FittedPlane &plane) {
   double squares = 0.0;
   OddPart part;
   int pairs = 0;
@@ -52,8 +52,8 @@ OddPart odd_part(const Neighbourhood &around, int n, const Plane &plane) {
 
 // How far a normal may be off because surfaces are not planes: by the odd part of the residuals, and by what
 // the windows on opposite sides have beside their mean.
-double smooth_uncertainty_rad(const OddPart &odd, const Plane &plane,
-                              const std::array<std::optional<Plane>, 4> &beside) {
+double smooth_uncertainty_rad(const OddPart &odd, const FittedPlane &plane,
+                              const std::array<std::optional<FittedPlane>, 4> &beside) {
   double uncertainty_rad = odd.is_known ? odd.deviation_m / std::sqrt(odd.offsets) : 1.0;
   for (const std::size_t side : {std::size_t{0}, std::size_t{2}})
     if (beside[side] && beside[side + 1])
@@ -83,7 +83,8 @@ Vector beyond_noise(const Vector &value, double deviation) {
 struct SecondDifference {
   double value_m = 0.0, deviation = 0.0;
 };
-SecondDifference second_difference(const Neighbourhood &around, const Plane &plane, glm::ivec2 step, int n) {
+SecondDifference second_difference(const Neighbourhood &around, const FittedPlane &plane, glm::ivec2 step,
+                                   int n) {
   // A range's weight, its square offset and its residual, in sums of even pairs and the middle.
   double weight = 1.0, squares = 0.0, fourths = 0.0, along_squares = 0.0;
   const double middle = residual_m(around.point(0, 0), plane);
@@ -109,7 +110,7 @@ SecondDifference second_difference(const Neighbourhood &around, const Plane &pla
 
 // How the surface bends in the window about the pixel, as far as it is no noise and half of the window shows
 // it, too: a step at the window's end is no bend.
-glm::dvec2 bend_m(const Neighbourhood &around, const Plane &plane, const OddPart &odd, int n) {
+glm::dvec2 bend_m(const Neighbourhood &around, const FittedPlane &plane, const OddPart &odd, int n) {
   const double noise_m = std::fmax(around.noise_m(), odd.deviation_m);
   const auto along = [&](glm::ivec2 step) {
     double least_m = std::numeric_limits<double>::max(), sign = 0.0;
@@ -123,12 +124,12 @@ glm::dvec2 bend_m(const Neighbourhood &around, const Plane &plane, const OddPart
   return {along({1, 0}), along({0, 1})};
 }
 
-glm::dvec2 nearest_bend_m(const Neighbourhood &around, const Plane &plane) {
+glm::dvec2 nearest_bend_m(const Neighbourhood &around, const FittedPlane &plane) {
   return {second_difference(around, plane, {1, 0}, 1).value_m,
           second_difference(around, plane, {0, 1}, 1).value_m};
 }
 
-SurfaceFit surface_of(const Neighbourhood &around, const Plane &plane, double uncertainty_rad) {
+SurfaceFit surface_of(const Neighbourhood &around, const FittedPlane &plane, double uncertainty_rad) {
   const PixelFrame &frame = around.frame();
   if (uncertainty_rad > no_plane_rad || !(plane.g.x > 0.0))
     return {-frame.along};
@@ -136,7 +137,7 @@ SurfaceFit surface_of(const Neighbourhood &around, const Plane &plane, double un
   return {-glm::normalize(g), uncertainty_rad};
 }
 
-SurfaceFit surface_about(const Neighbourhood &around, const Plane &plane, double uncertainty_rad,
+SurfaceFit surface_about(const Neighbourhood &around, const FittedPlane &plane, double uncertainty_rad,
                          const OddPart &odd, int n) {
   SurfaceFit surface = surface_of(around, plane, uncertainty_rad);
   surface.one_sided = false;
@@ -146,15 +147,15 @@ SurfaceFit surface_about(const Neighbourhood &around, const Plane &plane, double
 }
 
 SurfaceFit fit_surface(const Neighbourhood &around, int n) {
-  const std::optional<Plane> about = fitted_plane(around, {-n, n, -n, n});
+  const std::optional<FittedPlane> about = fitted_plane(around, {-n, n, -n, n});
   if (about && about->residual_m < sure_noises * std::fmax(around.noise_m(), rounding * around.range_m(0, 0)))
     return surface_about(around, *about, about->uncertainty_rad, odd_part(around, n, *about), n);
-  const std::array<std::optional<Plane>, 4> beside{
+  const std::array<std::optional<FittedPlane>, 4> beside{
       fitted_plane(around, {-2 * n, 0, -n, n}), fitted_plane(around, {0, 2 * n, -n, n}),
       fitted_plane(around, {-n, n, -2 * n, 0}), fitted_plane(around, {-n, n, 0, 2 * n})};
-  std::optional<Plane> best;
+  std::optional<FittedPlane> best;
   double best_rad = about ? about->uncertainty_rad / better_beside : 1.0;
-  const auto offer = [&](const std::optional<Plane> &plane) {
+  const auto offer = [&](const std::optional<FittedPlane> &plane) {
     if (plane && plane->uncertainty_rad < best_rad) {
       best = plane;
       best_rad = plane->uncertainty_rad;

@@ -38,7 +38,7 @@ void Session::take_over(SetupDocument document, std::shared_ptr<const Scene> sce
   scene_ = std::move(scene);
 }
 
-TakenFrame Session::take(std::size_t sensor, std::uint32_t number, const FrameRequest &request,
+TakenFrame Session::take(std::size_t sensor, std::uint32_t number, const RenderRequest &request,
                          const Progress &progress) {
   if (sensor >= setup_->start.sensors.size() || number >= setup_->frames.count)
     throw Error(ExitCode::usage,

@@ -15,14 +15,14 @@
 namespace pmdsim {
 
 // How frames are measured, beside what the setup says.
-struct FrameRequest {
+struct RenderRequest {
   Accuracy accuracy;
   std::optional<SampleChoice> samples; // instead of the setup's
   std::uint32_t paths = 0;             // of the reference, as Extras
   WantedChannels channels{};
   OutputPrecision output_precision = OutputPrecision::float32;
 
-  bool operator==(const FrameRequest &other) const {
+  bool operator==(const RenderRequest &other) const {
     return accuracy == other.accuracy && samples == other.samples && paths == other.paths &&
            channels.names() == other.channels.names() && output_precision == other.output_precision;
   }
@@ -46,7 +46,7 @@ public:
 
   // The frame of that number, of the sensor with that index, both of the setup's. Throws Error, interrupted
   // among others where `progress` does.
-  TakenFrame take(std::size_t sensor, std::uint32_t number, const FrameRequest &request,
+  TakenFrame take(std::size_t sensor, std::uint32_t number, const RenderRequest &request,
                   const Progress &progress);
 
 private:
@@ -55,7 +55,7 @@ private:
   // What frames are taken of; in one place, as exposures look at their setup.
   struct Taking {
     std::shared_ptr<const Setup> setup;
-    FrameRequest request;
+    RenderRequest request;
     Exposures exposures;
   };
 

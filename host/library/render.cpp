@@ -105,7 +105,7 @@ OutputPrecision output_precision_of(const char *text) {
   return text ? named(precisions, "output_precision", text) : OutputPrecision::float32;
 }
 
-FrameRequest request_of(const pmdsim_render_options *given, bool on_reference) {
+RenderRequest request_of(const pmdsim_render_options *given, bool on_reference) {
   const pmdsim_render_options options =
       given ? struct_of(given, sizeof(pmdsim_render_options), "options") : pmdsim_render_options{};
   return {accuracy_of(options, on_reference), samples_of(options.samples),
@@ -149,7 +149,7 @@ pmdsim_status pmdsim_render(pmdsim_simulator *simulator, uint32_t sensor, uint32
     Session &session = in->session;
     if (!session.has_setup())
       throw bad_argument("the simulator has no setup");
-    const FrameRequest request = request_of(options, session.camera()->is_reference());
+    const RenderRequest request = request_of(options, session.camera()->is_reference());
     if (request.accuracy.strict)
       refuse_warnings(session.setup().warnings);
     const Progress stop_when_cancelled = [&cancelled = in->cancelled](double) {

@@ -49,23 +49,23 @@ PngParts parts_of(std::string_view png) {
 
 } // namespace
 
-Animation::Animation(OutputFile &file, std::uint32_t frames, std::uint16_t frame_ms)
+AnimatedPng::AnimatedPng(OutputFile &file, std::uint32_t frames, std::uint16_t frame_ms)
     : file_(file), frames_(frames), frame_ms_(frame_ms) {}
 
-void Animation::write_chunk(const std::string &type, const std::string &content) {
+void AnimatedPng::write_chunk(const std::string &type, const std::string &content) {
   const std::string checked = type + content;
   file_.write(big_endian(static_cast<std::uint32_t>(content.size())) + checked +
               big_endian(libdeflate_crc32(0, checked.data(), checked.size())));
 }
 
 // fcTL: the whole image, for so many milliseconds, in place of the one before.
-void Animation::write_control(const std::string &header) {
+void AnimatedPng::write_control(const std::string &header) {
   const std::string size = header.substr(0, 8), offset(8, '\0'), replaces(2, '\0');
   write_chunk("fcTL", big_endian(sequence_++) + size + offset + big_endian(frame_ms_) +
                           big_endian(std::uint16_t{1000}) + replaces);
 }
 
-void Animation::add(const Canvas &canvas) {
+void AnimatedPng::add(const Canvas &canvas) {
   const PngParts parts = parts_of(canvas.png());
   if (added_ == 0) {
     header_ = parts.header;
@@ -83,7 +83,7 @@ void Animation::add(const Canvas &canvas) {
   ++added_;
 }
 
-void Animation::end() {
+void AnimatedPng::end() {
   if (added_ != frames_)
     throw std::logic_error("an animation that has not all of its images");
   write_chunk("IEND", {});

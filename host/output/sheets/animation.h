@@ -11,10 +11,10 @@ namespace pmdsim {
 
 // A canvas is added at a time, so that one of them is in memory. The animation repeats without end.
 // Throws Error (output).
-class Animation {
+class AnimatedPng {
 public:
   // `frames` of them come, each shown for `frame_ms`.
-  Animation(OutputFile &file, std::uint32_t frames, std::uint16_t frame_ms);
+  AnimatedPng(OutputFile &file, std::uint32_t frames, std::uint16_t frame_ms);
 
   // All are of the first one's size.
   void add(const Canvas &canvas);

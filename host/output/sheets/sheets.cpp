@@ -102,7 +102,7 @@ void write_animation(OutputFile &file, const FilmStrip &strip, std::uint32_t fra
                      const std::function<void()> &check) {
   const Colouring colouring = colouring_of(strip);
   const std::size_t digits = std::to_string(frame_count - 1).size();
-  Animation animation(file, static_cast<std::uint32_t>(strip.frames.size()), frame_ms);
+  AnimatedPng animation(file, static_cast<std::uint32_t>(strip.frames.size()), frame_ms);
   for (std::size_t i = 0; i < strip.frames.size(); ++i) {
     check();
     const Thumbnail &thumbnail = strip.thumbnails[i];

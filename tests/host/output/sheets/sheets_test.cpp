@@ -165,7 +165,7 @@ TEST_CASE("all frames of a contact sheet have the same colours") {
 TEST_CASE("an animation has the pixels of each of its images") {
   const TemporaryFolder temporary;
   OutputFile file(temporary.path() / "moving.apng");
-  Animation animation(file, 3, 250);
+  AnimatedPng animation(file, 3, 250);
   std::vector<std::string> rows;
   for (int i = 0; i < 3; ++i) {
     Canvas canvas(300, 200);
@@ -198,7 +198,7 @@ TEST_CASE("an animation has the pixels of each of its images") {
 TEST_CASE("an animation whose images differ in size or number is a mistake of the program") {
   const TemporaryFolder temporary;
   OutputFile file(temporary.path() / "moving.apng");
-  Animation animation(file, 2, 250);
+  AnimatedPng animation(file, 2, 250);
   animation.add(Canvas(30, 20));
   CHECK_THROWS_AS(animation.end(), std::logic_error);
   CHECK_THROWS_AS(animation.add(Canvas(31, 20)), std::logic_error);
