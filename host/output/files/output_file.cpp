@@ -1,5 +1,7 @@
 #include "host/output/files/output_file.h"
 
+#include "host/output/files/durable.h"
+
 #include <cerrno>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -122,8 +124,9 @@ std::uint64_t OutputFile::tell() const {
 }
 
 void OutputFile::sync() {
-  if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0)
+  if (std::fflush(stream_) != 0)
     fail_for_good();
+  sync_file(::fileno(stream_), path_);
 }
 
 void OutputFile::close() {
