@@ -13,6 +13,14 @@ constexpr const char *wall_gltf = R"({"asset": {"version": "2.0"}, "scene": 0, "
 "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 6}],
 "buffers": [{"byteLength": 54, "uri": "data:application/octet-stream;base64,zcxMvs3MTL4AAADAzcxMPs3MTL4AAADAzcxMPs3MTD4AAADAzcxMvs3MTD4AAADAAAECAAID"}]})";
 
+// A closed box of 2 x 2 x 2 m about the origin.
+constexpr const char *box_gltf = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+"nodes": [{"name": "box", "mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3", "min": [-1, -1, -1], "max": [1, 1, 1]},
+{"bufferView": 1, "componentType": 5121, "count": 36, "type": "SCALAR"}],
+"bufferViews": [{"buffer": 0, "byteLength": 96}, {"buffer": 0, "byteOffset": 96, "byteLength": 36}],
+"buffers": [{"byteLength": 132, "uri": "data:application/octet-stream;base64,AACAvwAAgL8AAIC/AACAvwAAgL8AAIA/AACAvwAAgD8AAIC/AACAvwAAgD8AAIA/AACAPwAAgL8AAIC/AACAPwAAgL8AAIA/AACAPwAAgD8AAIC/AACAPwAAgD8AAIA/AAEDAAMCBAYHBAcFAAQFAAUBAgMHAgcGAAIGAAYEAQUHAQcD"}]})";
+
 constexpr const char *diodes_csv = "x_m,y_m,z_m,axis_x,axis_y,axis_z,intensity_w_sr,pattern\n"
                                    "0.1,0,0,0,0,1,1,1\n-0.1,0,0,0,0,1,1,led.csv\n";
 constexpr const char *led_csv = "angle_deg,relative\n0,1\n45,0.5\n90,0\n";
@@ -32,6 +40,7 @@ const char *const small_setup_without_scene = R"({"sensors": [{"name": "pmd", "r
 
 std::filesystem::path write_small_files() {
   write_file("wall.gltf", wall_gltf);
+  write_file("box.gltf", box_gltf);
   write_file("diodes.csv", diodes_csv);
   write_file("led.csv", led_csv);
   write_file("led.ies", led_ies);
