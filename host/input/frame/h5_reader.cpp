@@ -75,6 +75,8 @@ public:
       if (!read.channels.empty() && resolution != read.resolution)
         throw frame_error(frame_, fmt::format("dataset {}: expected {} x {} pixels as the others have", name,
                                               read.resolution.x, read.resolution.y));
+      if (!has_all_of_compact(object.id(), creation.id(), *sizes))
+        throw frame_error(frame_, fmt::format("dataset {}: expected a value for each pixel", name));
       if (!has_whole_chunks(object.id(), creation.id(), *sizes))
         throw frame_error(frame_, fmt::format("dataset {}: expected whole chunks", name));
       read.resolution = resolution;
@@ -118,10 +120,13 @@ private:
     return sizes;
   }
 
+  std::size_t type_bytes(hid_t dataset) const {
+    return H5Tget_size(opened(H5Dget_type(dataset), H5Tclose).id());
+  }
+
   // Of types that channels may have.
   std::uint64_t value_bytes(hid_t dataset) const {
-    const Hdf5Handle type = opened(H5Dget_type(dataset), H5Tclose);
-    return H5Tget_size(type.id()) == sizeof(double) ? sizeof(double) : sizeof(float);
+    return type_bytes(dataset) == sizeof(double) ? sizeof(double) : sizeof(float);
   }
 
   using Filters = std::vector<H5Z_filter_t>;
@@ -148,6 +153,12 @@ private:
       throw frame_error(frame_, fmt::format("dataset {}: expected values in this file, without compression "
                                             "or with gzip",
                                             name));
+  }
+
+  // HDF5 1.10 reads beyond values that are stored beside their description and are too few.
+  bool has_all_of_compact(hid_t dataset, hid_t creation, const std::array<hsize_t, 2> &sizes) const {
+    return H5Pget_layout(creation) != H5D_COMPACT ||
+           H5Dget_storage_size(dataset) == sizes[0] * sizes[1] * type_bytes(dataset);
   }
 
   bool has_whole_chunks(hid_t dataset, hid_t creation, const std::array<hsize_t, 2> &sizes) const {

@@ -346,6 +346,30 @@ TEST_CASE("compressed chunks that are too short or too long are refused") {
   }
 }
 
+TEST_CASE("compact values that are fewer than the pixels are refused") {
+  const pmdsim::test::TemporaryFolder folder;
+  const std::vector<float> values{1, 2, 3, 4, 5, 6};
+  const auto path = made_h5(folder, [&](hid_t file) {
+    const hsize_t sizes[2]{2, 3};
+    const Hdf5Handle space(H5Screate_simple(2, sizes, nullptr), H5Sclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_layout(creation.id(), H5D_COMPACT);
+    const Hdf5Handle dataset(
+        H5Dcreate2(file, "z_m", H5T_IEEE_F32LE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+        H5Dclose);
+    H5Dwrite(dataset.id(), H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  });
+  CHECK(std::get<std::vector<float>>(read_frame(path).channels.at(0).values) == values);
+
+  std::string changed = bytes_of(path);
+  const std::string stored(reinterpret_cast<const char *>(values.data()), values.size() * sizeof(float));
+  const std::size_t size = changed.find(stored) - 2; // in front of the values, in two bytes
+  REQUIRE(changed.at(size) == 24);
+  changed[size] = 8;
+  folder.write("changed.h5", changed);
+  check_refused(folder.path() / "changed.h5", "dataset z_m: expected a value for each pixel");
+}
+
 TEST_CASE("links to one dataset hold no more than the file, links elsewhere are no channels") {
   const pmdsim::test::TemporaryFolder folder;
   const auto make = [&](bool is_linked_often) {
