@@ -1,6 +1,7 @@
 #include "engine/model/error.h"
 #include "host/commands/commands.h"
 #include "host/environment.h"
+#include "host/hdf5/hdf5.h"
 #include "host/input/words/utf8.h"
 #include "host/memory/memory_limit.h"
 #include "host/report/failure.h"
@@ -83,6 +84,7 @@ int main(int argument_count, char **arguments) {
     if (const auto options = parse_options(argument_count, arguments)) {
       settle_environment();
       settle_threads();
+      leave_hdf5_open_at_exit();
       set_max_memory(options->max_memory);
       std::ranges::find(commands, options->command, &Command::name)->run(*options);
     }

@@ -23,6 +23,11 @@ private:
   void *print_to_ = nullptr;
 };
 
+// HDF5 closes nothing when the process ends, which it tells of where a damaged file left something open. To
+// be called before anything else of HDF5's, and by programs alone: others may have files open in a library's
+// process.
+inline void leave_hdf5_open_at_exit() { H5dont_atexit(); }
+
 // What HDF5 says of this thread's last call that failed.
 struct Hdf5Reason {
   std::string text; // the innermost reason, in one line

@@ -218,6 +218,21 @@ TEST_CASE("no Vulkan device") {
             .exit_code == 0);
 }
 
+TEST_CASE("a damaged HDF5 file is told of in one line") {
+  const Workspace work;
+  // A superblock of version 3, and the begin of the root group's object header.
+  const std::vector<unsigned char> begin{0x89, 0x48, 0x44, 0x46, 0x0d, 0x0a, 0x1a, 0x0a, 0x03, 0x08, 0x08,
+                                         0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xff, 0xff,
+                                         0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x30, 0x08, 0x00, 0x00, 0x00,
+                                         0x00, 0x00, 0x00, 0x30, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
+                                         0xf3, 0x75, 0xe3, 0xe8, 0x4f, 0x48, 0x44, 0x52, 0x02, 0x20};
+  std::string bytes(begin.begin(), begin.end());
+  bytes.resize(0x083c);
+  const Run run = run_pmdsim({"correct", work.write("setup.json", small_setup()),
+                              work.write("damaged.h5", bytes), "-o", work / "out"});
+  check_refusal(run, 3, {"damaged.h5: cannot be read: HDF5: incorrect metadata checksum"});
+}
+
 TEST_CASE("wrong command lines", "[smoke]") {
   for (const std::vector<std::string> &arguments : {std::vector<std::string>{"paint"},
                                                     {"render"},
