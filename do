@@ -335,7 +335,7 @@ fuzz() {
 sanitize() {
   configure "$1"
   ninja -C "$root/build/$1" all 2>&1 | tell_of_build
-  ctest --test-dir "$root/build/$1" --output-on-failure --parallel 2 --label-exclude 'long|smoke'
+  ctest --test-dir "$root/build/$1" --output-on-failure --parallel 2 --timeout 7200 --label-exclude 'long|smoke'
 }
 
 command=${1:-}
