@@ -335,6 +335,7 @@ fuzz() {
 sanitize() {
   configure "$1"
   ninja -C "$root/build/$1" all 2>&1 | tell_of_build
+  if [ "$1" = thread ]; then "$root/tests/sanitizers/tbb_for_threads.sh" "$root/build/thread/tbb" >&2; fi
   ctest --test-dir "$root/build/$1" --output-on-failure --parallel 2 --timeout 7200 --label-exclude 'long|smoke'
 }
 

@@ -12,8 +12,11 @@ if(PMDSIM_SANITIZE STREQUAL "address")
        LD_PRELOAD=$<TARGET_FILE:keep_loaded>)
   set(runtimes asan stdc++)
 elseif(PMDSIM_SANITIZE STREQUAL "thread")
-  # TBB, Embree and lavapipe's LLVM are not instrumented: what happens inside of them and between them is not seen.
-  list(APPEND sanitizer_environment TSAN_OPTIONS=ignore_noninstrumented_modules=1:second_deadlock_stack=1)
+  # Embree and lavapipe's LLVM are not instrumented: what happens inside of them is not seen. TBB is, by
+  # tbb_for_threads.sh.
+  list(APPEND sanitizer_environment
+       TSAN_OPTIONS=ignore_noninstrumented_modules=1:second_deadlock_stack=1:print_suppressions=0:suppressions=${CMAKE_CURRENT_LIST_DIR}/races.supp
+       LD_LIBRARY_PATH=${PROJECT_BINARY_DIR}/tbb)
   set(runtimes tsan stdc++)
 endif()
 foreach(runtime IN LISTS runtimes)
