@@ -70,17 +70,19 @@ public:
       if (!sizes)
         continue;
       const auto [rows, columns] = *sizes;
-      const glm::uvec2 resolution = checked_resolution(frame_, columns, rows, value_bytes(object.id()),
-                                                       stored_bytes(object.id(), name));
+      const hid_t type = type_in_memory(object.id(), name);
+      const std::size_t value_bytes = H5Tget_size(type);
+      const glm::uvec2 resolution =
+          checked_resolution(frame_, columns, rows, value_bytes, stored_bytes(object.id(), name));
       if (!read.channels.empty() && resolution != read.resolution)
         throw frame_error(frame_, fmt::format("dataset {}: expected {} x {} pixels as the others have", name,
                                               read.resolution.x, read.resolution.y));
-      if (!has_all_of_compact(object.id(), creation.id(), *sizes))
+      if (!has_all_of_compact(object.id(), creation.id(), *sizes, value_bytes))
         throw frame_error(frame_, fmt::format("dataset {}: expected a value for each pixel", name));
-      if (!has_whole_chunks(object.id(), creation.id(), *sizes))
+      if (!has_whole_chunks(object.id(), creation.id(), *sizes, value_bytes))
         throw frame_error(frame_, fmt::format("dataset {}: expected whole chunks", name));
       read.resolution = resolution;
-      read.channels.push_back(channel(object.id(), name, std::size_t{resolution.x} * resolution.y));
+      read.channels.push_back(channel(object.id(), name, type, std::size_t{resolution.x} * resolution.y));
     }
     if (read.channels.empty())
       throw frame_error(frame_, "expected channels as two-dimensional datasets in the root group");
@@ -120,13 +122,19 @@ private:
     return sizes;
   }
 
-  std::size_t type_bytes(hid_t dataset) const {
-    return H5Tget_size(opened(H5Dget_type(dataset), H5Tclose).id());
-  }
-
-  // Of types that channels may have.
-  std::uint64_t value_bytes(hid_t dataset) const {
-    return type_bytes(dataset) == sizeof(double) ? sizeof(double) : sizeof(float);
+  // That of HDF5's types to which the values are converted.
+  hid_t type_in_memory(hid_t dataset, const std::string &name) const {
+    const Hdf5Handle type = opened(H5Dget_type(dataset), H5Tclose);
+    const auto is_any = [&](hid_t one, hid_t other) {
+      return H5Tequal(type.id(), one) > 0 || H5Tequal(type.id(), other) > 0;
+    };
+    if (is_any(H5T_IEEE_F32LE, H5T_IEEE_F32BE))
+      return H5T_NATIVE_FLOAT;
+    if (is_any(H5T_IEEE_F64LE, H5T_IEEE_F64BE))
+      return H5T_NATIVE_DOUBLE;
+    if (is_any(H5T_STD_U32LE, H5T_STD_U32BE))
+      return H5T_NATIVE_UINT32;
+    throw frame_error(frame_, fmt::format("dataset {}: expected float32, float64 or uint32", name));
   }
 
   using Filters = std::vector<H5Z_filter_t>;
@@ -156,34 +164,38 @@ private:
   }
 
   // HDF5 1.10 reads beyond values that are stored beside their description and are too few.
-  bool has_all_of_compact(hid_t dataset, hid_t creation, const std::array<hsize_t, 2> &sizes) const {
+  static bool has_all_of_compact(hid_t dataset, hid_t creation, const std::array<hsize_t, 2> &sizes,
+                                 std::size_t value_bytes) {
     return H5Pget_layout(creation) != H5D_COMPACT ||
-           H5Dget_storage_size(dataset) == sizes[0] * sizes[1] * type_bytes(dataset);
+           H5Dget_storage_size(dataset) == sizes[0] * sizes[1] * value_bytes;
   }
 
-  bool has_whole_chunks(hid_t dataset, hid_t creation, const std::array<hsize_t, 2> &sizes) const {
+  bool has_whole_chunks(hid_t dataset, hid_t creation, const std::array<hsize_t, 2> &sizes,
+                        std::size_t value_bytes) const {
     const Filters filters = filters_of(creation);
-    if (filters.empty())
-      return true;
+    if (H5Pget_layout(creation) != H5D_CHUNKED)
+      return filters.empty();
     std::array<hsize_t, 2> chunk{};
     if (H5Pget_chunk(creation, 2, chunk.data()) != 2 || chunk[0] < 1 || chunk[1] < 1 || chunk[0] > sizes[0] ||
         chunk[1] > sizes[1])
       return false;
-    const unsigned deflate_mask = filters.back() == H5Z_FILTER_DEFLATE ? 1u << (filters.size() - 1) : 0;
+    const bool is_deflated = !filters.empty() && filters.back() == H5Z_FILTER_DEFLATE;
+    const unsigned deflate_mask = is_deflated ? 1u << (filters.size() - 1) : 0;
     for (hsize_t row = 0; row < sizes[0]; row += chunk[0])
       for (hsize_t column = 0; column < sizes[1]; column += chunk[1])
-        if (!is_whole_chunk(dataset, {row, column}, chunk[0] * chunk[1] * value_bytes(dataset), deflate_mask))
+        if (!is_whole_chunk(dataset, {row, column}, chunk[0] * chunk[1] * value_bytes, deflate_mask))
           return false;
     return true;
   }
 
-  // HDF5 1.10 trusts that what a filter makes fills a chunk, and else reads beyond it.
+  // HDF5 1.10 trusts that a chunk is as large as its values, and so is what a filter makes, and else reads
+  // beyond it.
   bool is_whole_chunk(hid_t dataset, const std::array<hsize_t, 2> &at, hsize_t bytes,
                       unsigned deflate_mask) const {
     hsize_t stored = 0;
     std::uint32_t left_out = 0;
-    check(H5Dget_chunk_storage_size(dataset, at.data(), &stored));
-    if (stored < 1 || stored > frame_.content.size())
+    if (H5Dget_chunk_storage_size(dataset, at.data(), &stored) < 0 || stored < 1 ||
+        stored > frame_.content.size())
       return false;
     std::vector<std::uint8_t> raw(stored);
     check(H5Dread_chunk(dataset, H5P_DEFAULT, at.data(), &left_out, raw.data()));
@@ -209,20 +221,14 @@ private:
     return bytes;
   }
 
-  ReadChannel channel(hid_t dataset, const std::string &name, std::size_t values) const {
-    const Hdf5Handle type = opened(H5Dget_type(dataset), H5Tclose);
-    const auto is_any = [&](hid_t one, hid_t other) {
-      return H5Tequal(type.id(), one) > 0 || H5Tequal(type.id(), other) > 0;
-    };
+  ReadChannel channel(hid_t dataset, const std::string &name, hid_t type, std::size_t values) const {
     // Not its attribute: HDF5 1.10 reads beyond damaged ones.
     const std::string unit = unit_of(name);
-    if (is_any(H5T_IEEE_F32LE, H5T_IEEE_F32BE))
-      return {name, unit, read<float>(dataset, H5T_NATIVE_FLOAT, values)};
-    if (is_any(H5T_IEEE_F64LE, H5T_IEEE_F64BE))
-      return {name, unit, read<double>(dataset, H5T_NATIVE_DOUBLE, values)};
-    if (is_any(H5T_STD_U32LE, H5T_STD_U32BE))
-      return {name, unit, read<std::uint32_t>(dataset, H5T_NATIVE_UINT32, values)};
-    throw frame_error(frame_, fmt::format("dataset {}: expected float32, float64 or uint32", name));
+    if (type == H5T_NATIVE_FLOAT)
+      return {name, unit, read<float>(dataset, type, values)};
+    if (type == H5T_NATIVE_DOUBLE)
+      return {name, unit, read<double>(dataset, type, values)};
+    return {name, unit, read<std::uint32_t>(dataset, type, values)};
   }
 
   template <class Value>

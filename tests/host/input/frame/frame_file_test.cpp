@@ -370,6 +370,28 @@ TEST_CASE("compact values that are fewer than the pixels are refused") {
   check_refused(folder.path() / "changed.h5", "dataset z_m: expected a value for each pixel");
 }
 
+TEST_CASE("chunks without compression are all there and of the channel's type") {
+  const pmdsim::test::TemporaryFolder folder;
+  const std::vector<float> values{1, 2, 3, 4, 5, 6};
+  const auto made = [&](bool both, hid_t type) {
+    return made_h5(folder, [&](hid_t file) {
+      const hsize_t sizes[2]{2, 3}, row[2]{1, 3}, at[2]{both ? 0u : 1u, 0}, rows[2]{both ? 2u : 1u, 3};
+      const Hdf5Handle space(H5Screate_simple(2, sizes, nullptr), H5Sclose),
+          part(H5Screate_simple(2, rows, nullptr), H5Sclose);
+      const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+      H5Pset_chunk(creation.id(), 2, row);
+      H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_INCR);
+      const Hdf5Handle dataset(
+          H5Dcreate2(file, "z_m", type, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Dclose);
+      H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, at, nullptr, rows, nullptr);
+      H5Dwrite(dataset.id(), H5T_NATIVE_FLOAT, part.id(), space.id(), H5P_DEFAULT, values.data());
+    });
+  };
+  CHECK(std::get<std::vector<float>>(read_frame(made(true, H5T_IEEE_F32LE)).channels.at(0).values) == values);
+  check_refused(made(false, H5T_IEEE_F32LE), "dataset z_m: expected whole chunks");
+  check_refused(made(true, H5T_STD_I16LE), "dataset z_m: expected float32, float64 or uint32");
+}
+
 TEST_CASE("links to one dataset hold no more than the file, links elsewhere are no channels") {
   const pmdsim::test::TemporaryFolder folder;
   const auto make = [&](bool is_linked_often) {
