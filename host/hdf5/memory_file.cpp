@@ -11,8 +11,8 @@ namespace {
 
 // What HDF5 calls a driver: it reads at addresses, and is asked how far these go.
 struct MemoryFile {
-  H5FD_t of_hdf5{}; // first: HDF5 knows the file by it
-  std::string_view bytes{};
+  H5FD_t of_hdf5{};                           // first: HDF5 knows the file by it
+  Hdf5MemoryFile::Content *content = nullptr; // of the file that is being read, if it still is
   haddr_t end_of_use = 0;
 };
 
@@ -25,11 +25,11 @@ std::set<MemoryFile *> &open_files() {
 const MemoryFile &memory_file(const H5FD_t *file) { return *reinterpret_cast<const MemoryFile *>(file); }
 
 H5FD_t *open_memory(const char *, unsigned, hid_t access, haddr_t) {
-  const auto *bytes = static_cast<const std::string_view *>(H5Pget_driver_info(access));
-  if (!bytes)
+  const auto *content = static_cast<Hdf5MemoryFile::Content *const *>(H5Pget_driver_info(access));
+  if (!content)
     return nullptr;
   try { // no exception may pass through HDF5's C
-    auto file = std::make_unique<MemoryFile>(MemoryFile{{}, *bytes, 0});
+    auto file = std::make_unique<MemoryFile>(MemoryFile{{}, *content, 0});
     open_files().insert(file.get());
     return reinterpret_cast<H5FD_t *>(file.release());
   } catch (const std::bad_alloc &) {
@@ -48,11 +48,13 @@ herr_t set_end_of_use(H5FD_t *file, H5FD_mem_t, haddr_t end) {
   return 0;
 }
 
-herr_t read_memory(H5FD_t *file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void *to) {
-  const std::string_view bytes = memory_file(file).bytes;
-  if (address > bytes.size() || size > bytes.size() - address)
+herr_t read_memory(H5FD_t *file, H5FD_mem_t what, hid_t, haddr_t address, std::size_t size, void *to) {
+  Hdf5MemoryFile::Content *const content = memory_file(file).content;
+  if (!content || address > content->bytes.size() || size > content->bytes.size() - address)
     return -1;
-  std::memcpy(to, bytes.data() + address, size);
+  std::memcpy(to, content->bytes.data() + address, size);
+  if (what == H5FD_MEM_DRAW)
+    content->value_bytes_read += size;
   return 0;
 }
 
@@ -61,7 +63,7 @@ H5FD_class_t memory_driver() {
   driver.name = "pmdsim_memory";
   driver.maxaddr = std::numeric_limits<std::int64_t>::max();
   driver.fc_degree = H5F_CLOSE_STRONG;
-  driver.fapl_size = sizeof(std::string_view);
+  driver.fapl_size = sizeof(Hdf5MemoryFile::Content *);
   driver.open = open_memory;
   driver.close = close_memory;
   driver.query = [](const H5FD_t *, unsigned long *features) -> herr_t {
@@ -70,7 +72,10 @@ H5FD_class_t memory_driver() {
   };
   driver.get_eoa = [](const H5FD_t *file, H5FD_mem_t) { return memory_file(file).end_of_use; };
   driver.set_eoa = set_end_of_use;
-  driver.get_eof = [](const H5FD_t *file, H5FD_mem_t) -> haddr_t { return memory_file(file).bytes.size(); };
+  driver.get_eof = [](const H5FD_t *file, H5FD_mem_t) -> haddr_t {
+    const Hdf5MemoryFile::Content *content = memory_file(file).content;
+    return content ? content->bytes.size() : 0;
+  };
   driver.read = read_memory;
   driver.write = [](H5FD_t *, H5FD_mem_t, hid_t, haddr_t, std::size_t, const void *) -> herr_t { return -1; };
   constexpr H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;
@@ -89,15 +94,17 @@ hid_t driver_id() {
 
 } // namespace
 
-Hdf5MemoryFile::Hdf5MemoryFile(std::string_view bytes) : access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose) {
-  if (H5Pset_driver(access_.id(), driver_id(), &bytes) >= 0)
+Hdf5MemoryFile::Hdf5MemoryFile(std::string_view bytes)
+    : content_{bytes}, access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose) {
+  const Content *const content = &content_;
+  if (H5Pset_driver(access_.id(), driver_id(), &content) >= 0)
     file_ = {H5Fopen("frame", H5F_ACC_RDONLY, access_.id()), H5Fclose};
 }
 
 Hdf5MemoryFile::~Hdf5MemoryFile() {
   file_ = {};
   for (MemoryFile *file : open_files())
-    file->bytes = {};
+    file->content = nullptr;
 }
 
 } // namespace pmdsim

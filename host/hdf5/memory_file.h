@@ -3,6 +3,7 @@
 
 #include "host/hdf5/hdf5.h"
 
+#include <cstddef>
 #include <string_view>
 
 namespace pmdsim {
@@ -20,7 +21,17 @@ public:
 
   hid_t id() const { return file_.id(); }
 
+  // How many bytes HDF5 has read of datasets' values since the file was opened. A damaged index of chunks has
+  // other sizes for them than HDF5 tells of, and reads as many as the index has.
+  std::size_t value_bytes_read() const { return content_.value_bytes_read; }
+
+  struct Content {
+    std::string_view bytes;
+    std::size_t value_bytes_read = 0;
+  };
+
 private:
+  Content content_;   // has its place for HDF5's driver as long as the file
   Hdf5Handle access_; // closed last, as HDF5 forgets why it failed when it closes anything
   Hdf5Handle file_;
 };

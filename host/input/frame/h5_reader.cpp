@@ -10,6 +10,7 @@
 #include <libdeflate.h>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -171,13 +172,16 @@ private:
   }
 
   bool has_whole_chunks(hid_t dataset, hid_t creation, const std::array<hsize_t, 2> &sizes,
-                        std::size_t value_bytes) const {
+                        std::size_t value_bytes) {
     const Filters filters = filters_of(creation);
     if (H5Pget_layout(creation) != H5D_CHUNKED)
       return filters.empty();
     std::array<hsize_t, 2> chunk{};
     if (H5Pget_chunk(creation, 2, chunk.data()) != 2 || chunk[0] < 1 || chunk[1] < 1 || chunk[0] > sizes[0] ||
         chunk[1] > sizes[1])
+      return false;
+    unsigned options = 0;
+    if (H5Pget_chunk_opts(creation, &options) < 0 || options != 0) // chunks at the rim, without filters
       return false;
     const bool is_deflated = !filters.empty() && filters.back() == H5Z_FILTER_DEFLATE;
     const unsigned deflate_mask = is_deflated ? 1u << (filters.size() - 1) : 0;
@@ -190,19 +194,17 @@ private:
 
   // HDF5 1.10 trusts that a chunk is as large as its values, and so is what a filter makes, and else reads
   // beyond it.
-  bool is_whole_chunk(hid_t dataset, const std::array<hsize_t, 2> &at, hsize_t bytes,
-                      unsigned deflate_mask) const {
-    hsize_t stored = 0;
+  bool is_whole_chunk(hid_t dataset, const std::array<hsize_t, 2> &at, hsize_t bytes, unsigned deflate_mask) {
     std::uint32_t left_out = 0;
-    if (H5Dget_chunk_storage_size(dataset, at.data(), &stored) < 0 || stored < 1 ||
-        stored > frame_.content.size())
+    const std::size_t read_before = file_.value_bytes_read();
+    chunk_.resize(frame_.content.size()); // no chunk is longer
+    if (H5Dread_chunk(dataset, H5P_DEFAULT, at.data(), &left_out, chunk_.data()) < 0)
       return false;
-    std::vector<std::uint8_t> raw(stored);
-    check(H5Dread_chunk(dataset, H5P_DEFAULT, at.data(), &left_out, raw.data()));
-    return (deflate_mask & ~left_out) != 0 ? inflates_to(raw, bytes) : stored == bytes;
+    const std::span stored(chunk_.data(), file_.value_bytes_read() - read_before);
+    return (deflate_mask & ~left_out) != 0 ? inflates_to(stored, bytes) : stored.size() == bytes;
   }
 
-  static bool inflates_to(const std::vector<std::uint8_t> &raw, hsize_t bytes) {
+  static bool inflates_to(std::span<const std::uint8_t> raw, hsize_t bytes) {
     const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> inflater(
         libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
     std::vector<std::uint8_t> whole(bytes);
@@ -241,6 +243,7 @@ private:
   const FrameBytes &frame_;
   Hdf5MemoryFile file_;
   std::uint64_t stored_bytes_ = 0; // of the datasets so far
+  std::vector<std::uint8_t> chunk_;
 };
 
 } // namespace
