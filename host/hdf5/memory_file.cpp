@@ -97,7 +97,7 @@ hid_t driver_id() {
 Hdf5MemoryFile::Hdf5MemoryFile(std::string_view bytes)
     : content_{bytes}, access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose) {
   const Content *const content = &content_;
-  if (H5Pset_driver(access_.id(), driver_id(), &content) >= 0)
+  if (H5Pset_driver(access_.id(), driver_id(), static_cast<const void *>(&content)) >= 0)
     file_ = {H5Fopen("frame", H5F_ACC_RDONLY, access_.id()), H5Fclose};
 }
 
