@@ -57,6 +57,20 @@ void redirect(const fs::path &file, int to) {
   ::_exit(126);
 }
 
+// A signal that comes before the program has begun ends the child, and does not meet the handlers of the
+// tests there, which wait for ever where the parent was within malloc().
+pid_t fork_without_handlers() {
+  sigset_t all, before;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
+  const pid_t process = ::fork();
+  if (process == 0)
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+      ::signal(signal, SIG_DFL);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return process;
+}
+
 // The most memory that a process has had so far, or nothing where it has ended. Its rusage is no measure:
 // that begins with the memory of the test that forked it.
 std::optional<std::int64_t> peak_resident_bytes(pid_t process) {
@@ -76,7 +90,7 @@ void wait_for(const fs::path &file) {
 }
 
 RunningPmdsim::RunningPmdsim(const std::vector<std::string> &arguments, const RunOptions &options)
-    : process_(::fork()) {
+    : process_(fork_without_handlers()) {
   if (process_ < 0)
     throw std::runtime_error("fork failed");
   if (process_ == 0)
