@@ -5,6 +5,10 @@ set -euo pipefail
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 [ ! -e "$folder/libtbb.so.12" ] || exit 0
+if ! command -v apt-get >/dev/null; then
+  echo "tbb_for_threads.sh: no apt-get, so no TBB with ThreadSanitizer: its loops will look like races" >&2
+  exit 0
+fi
 
 # The system's own sources of packages, as sources of their source; the system's lists stay as they are.
 mkdir -p "$folder"/apt/{parts,lists/partial}
