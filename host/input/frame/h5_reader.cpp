@@ -3,6 +3,7 @@
 #include "engine/correction/corrected_channels.h"
 #include "engine/model/channels.h"
 #include "host/hdf5/memory_file.h"
+#include "host/input/file/memory_request.h"
 
 #include <algorithm>
 #include <array>
@@ -97,8 +98,12 @@ private:
   }
 
   void check(herr_t result) const {
-    if (result < 0)
-      throw frame_error(frame_, fmt::format("cannot be read: {}", hdf5_reason().text));
+    if (result >= 0)
+      return;
+    const Hdf5Reason reason = hdf5_reason();
+    const Error error = frame_error(
+        frame_, fmt::format("{}: {}", reason.lacks_memory ? "out of memory" : "cannot be read", reason.text));
+    throw Error(reason.lacks_memory ? ExitCode::out_of_memory : ExitCode::input, error.what(), error.where());
   }
 
   // In this file itself. One name is looked up at a time: where HDF5 1.10 lists the names of a damaged
@@ -183,6 +188,9 @@ private:
     unsigned options = 0;
     if (H5Pget_chunk_opts(creation, &options) < 0 || options != 0) // chunks at the rim, without filters
       return false;
+    require_memory(frame_.content.size() + sizes[0] * sizes[1] * value_bytes, Place{frame_.file},
+                   fmt::format("{} x {} pixels and a chunk of them", sizes[1], sizes[0]));
+    chunk_.resize(frame_.content.size()); // no chunk is longer
     const bool is_deflated = !filters.empty() && filters.back() == H5Z_FILTER_DEFLATE;
     const unsigned deflate_mask = is_deflated ? 1u << (filters.size() - 1) : 0;
     for (hsize_t row = 0; row < sizes[0]; row += chunk[0])
@@ -197,7 +205,6 @@ private:
   bool is_whole_chunk(hid_t dataset, const std::array<hsize_t, 2> &at, hsize_t bytes, unsigned deflate_mask) {
     std::uint32_t left_out = 0;
     const std::size_t read_before = file_.value_bytes_read();
-    chunk_.resize(frame_.content.size()); // no chunk is longer
     if (H5Dread_chunk(dataset, H5P_DEFAULT, at.data(), &left_out, chunk_.data()) < 0)
       return false;
     const std::span stored(chunk_.data(), file_.value_bytes_read() - read_before);

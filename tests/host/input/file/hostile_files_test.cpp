@@ -8,14 +8,18 @@
 #include "host/memory/machine_memory.h"
 #include "host/memory/memory_limit.h"
 #include "host/output/files/channel.h"
+#include "host/output/files/h5_writer.h"
 #include "tests/host/input/calibration/calibration_texts.h"
 #include "tests/host/input/gltf/builder.h"
 #include "tests/host/input/image/image_bytes.h"
 #include "tests/host/input/setup/setup_fixture.h"
 #include "tests/support/temporary_folder.h"
 
+#include <bit>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <random>
+#include <vector>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -100,6 +104,22 @@ TEST_CASE("frames that were compressed well ask for the memory of their channels
   CHECK(std::filesystem::file_size(folder.path() / "frame.exr") < 1'000'000);
   CHECK_THAT(out_of_memory_of([&] { read_frame(folder.path() / "frame.exr"); }),
              Contains("frame.exr: out of memory: 4000 x 4000 pixels needs 64 MB"));
+}
+
+TEST_CASE("frames of HDF5 ask for the memory of a chunk beside that of their values") {
+  const TemporaryFolder folder;
+  std::mt19937 random(1);
+  std::vector<float> values(2000 * 2000); // 16 MB, as the file has, and the chunk may have
+  for (float &value : values)
+    value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+  {
+    OutputFile file(folder.path() / "frame.h5");
+    write_h5(file, {{2000, 2000}, {{"distance_m", "m", std::span(values)}}}, {Sensor{}, 0, 0.0});
+    file.close();
+    file.publish();
+  }
+  CHECK_THAT(out_of_memory_of([&] { read_frame(folder.path() / "frame.h5"); }),
+             Contains("frame.h5: out of memory: 2000 x 2000 pixels and a chunk of them needs 32 MB"));
 }
 
 TEST_CASE("arrays in an archive ask for memory as they grow") {
