@@ -27,10 +27,14 @@ std::array<std::string_view, 3> parts_of(std::string_view text) {
 
 void read_again(const std::filesystem::path &folder) {
   const RunFile of_run = read_run_file(folder);
-  RunIdentity other = of_run.run;
-  other.head["setup"] = {{"sensors", 1}};
-  fuzz::check_line(difference_text(of_run.run, other));
-  fuzz::check_line(difference_text(other, of_run.run));
+  const nlohmann::ordered_json inputs{{{"file", "wall.gltf"}, {"bytes", 1}}, {{"file", "led.csv"}}};
+  for (const auto &[key, value] :
+       {std::pair{"setup", nlohmann::ordered_json{{"sensors", 1}}}, {"inputs", inputs}}) {
+    RunIdentity other = of_run.run;
+    other.head[key] = value;
+    fuzz::check_line(difference_text(of_run.run, other));
+    fuzz::check_line(difference_text(other, of_run.run));
+  }
   for (const std::uint32_t frame : recorded_frames(folder))
     if (const auto record = read_record(folder, frame, of_run.run.hash)) {
       has_warnings(*record);

@@ -1,5 +1,6 @@
 // A setup's text beside small files that it may name, loaded with its scene and without, at several times.
-// Behind a line of four dashes stand changes to it, as --set and a file of variants make them.
+// Behind a line of four dashes stand changes to it, as --set and a file of variants make them. What does not
+// look like JSON is read as a file, which may be of another kind.
 
 #include "tests/fuzz/target.h"
 
@@ -29,6 +30,10 @@ void load(const SetupDocument &document) {
 FUZZ_TARGET(setup) {
   static const std::filesystem::path file = fuzz::write_small_files() / "setup.json";
   const std::string_view text = fuzz::text_of(data, size);
+  if (!text.starts_with('{') && !text.starts_with('/')) { // nor a comment
+    fuzz::accepts([&] { read_setup_document(fuzz::write_file("other.csv", text)); });
+    return 0;
+  }
   const std::size_t end = std::min(text.find(before_changes), text.size());
   fuzz::accepts([&] {
     SetupDocument document = parse_setup_document(text.substr(0, end), file);
