@@ -39,6 +39,13 @@ std::string shown(const ordered_json &value) {
   return value.is_number() ? table_number(value.get<double>()) : value.is_null() ? "-" : value.dump();
 }
 
+// A record that others wrote may tell of what the row says already.
+ordered_json without_keys_of(const ordered_json &row, ordered_json told) {
+  for (const auto &[key, value] : row.items())
+    told.erase(key);
+  return told;
+}
+
 } // namespace
 
 ordered_json frame_summary(const Measurement &frame) {
@@ -68,7 +75,7 @@ void VariantTable::add(const Variant &variant, const ordered_json &of_sensor) {
   for (const char *key : {"sensor", "frame", "time_s"})
     row[key] = of.at(key);
   if (of_sensor.contains("told"))
-    row.update(of_sensor.at("told"));
+    row.update(without_keys_of(row, of_sensor.at("told")));
   row["error_claimed_m"] = of.at("error_claimed_m");
   rows_.push_back(std::move(row));
 }

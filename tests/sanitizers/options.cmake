@@ -15,7 +15,7 @@ elseif(PMDSIM_SANITIZE STREQUAL "thread")
   # Embree and lavapipe's LLVM are not instrumented: what happens inside of them is not seen. TBB is, by
   # tbb_for_threads.sh.
   list(APPEND sanitizer_environment
-       TSAN_OPTIONS=ignore_noninstrumented_modules=1:second_deadlock_stack=1:print_suppressions=0:suppressions=${CMAKE_CURRENT_LIST_DIR}/races.supp
+       TSAN_OPTIONS=allocator_may_return_null=1:ignore_noninstrumented_modules=1:second_deadlock_stack=1:print_suppressions=0:suppressions=${CMAKE_CURRENT_LIST_DIR}/races.supp
        LD_LIBRARY_PATH=${PROJECT_BINARY_DIR}/tbb)
   set(runtimes tsan stdc++)
 endif()

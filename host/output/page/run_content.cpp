@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <map>
 
 namespace pmdsim {
@@ -24,6 +25,17 @@ constexpr const char *expected = "expected what render, deform or correct leaves
 bool is_plain_name(const std::string &name) {
   return !name.empty() && name.front() != '.' && name.find('/') == std::string::npos &&
          name.find('\0') == std::string::npos;
+}
+
+Error no_manifest(const fs::path &file) {
+  return input_error(Place{file}, fmt::format("is no manifest, {}", expected));
+}
+
+std::uint32_t frame_of(const ordered_json &entry, const fs::path &manifest) {
+  const ordered_json &frame = entry.at("frame");
+  if (!frame.is_number_unsigned() || frame > std::numeric_limits<std::uint32_t>::max())
+    throw no_manifest(manifest);
+  return frame.get<std::uint32_t>();
 }
 
 // The outputs' names, or json::exception.
@@ -52,7 +64,7 @@ Error no_channels(const fs::path &manifest, const std::string &sensor, std::uint
 void add_frame(RunContent &run, std::map<std::string, std::size_t> &place_of, const fs::path &manifest,
                ordered_json &entry) {
   const auto name = entry.at("sensor").get<std::string>();
-  const auto number = entry.at("frame").get<std::uint32_t>();
+  const std::uint32_t number = frame_of(entry, manifest);
   fs::path file = file_with_channels(run.directory, names_of(entry));
   if (file.empty())
     throw no_channels(manifest, name, number);
@@ -75,7 +87,7 @@ ordered_json parsed_manifest(const fs::path &file) {
   }
   auto manifest = parsed_in_order(text, file, max_manifest_values);
   if (!manifest || !manifest->is_object())
-    throw input_error(Place{file}, fmt::format("is no manifest, {}", expected));
+    throw no_manifest(file);
   return std::move(*manifest);
 }
 
@@ -89,10 +101,10 @@ RunContent read_run(const fs::path &directory, const std::optional<FrameRange> &
     run.head.erase("frames");
     std::map<std::string, std::size_t> place_of;
     for (ordered_json &entry : entries)
-      if (!frames || frames->contains(entry.at("frame").get<std::uint32_t>()))
+      if (!frames || frames->contains(frame_of(entry, file)))
         add_frame(run, place_of, file, entry);
   } catch (const nlohmann::json::exception &) {
-    throw input_error(Place{file}, fmt::format("is no manifest, {}", expected));
+    throw no_manifest(file);
   }
   if (run.sensors.empty())
     throw input_error(Place{file},

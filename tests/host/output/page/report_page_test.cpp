@@ -196,7 +196,9 @@ TEST_CASE("what is no run's directory is refused") {
   CHECK(run.refusal() == "has no frames");
   for (const char *text :
        {"", "[]", "{}", "{\"frames\": 3}", "{\"frames\": [{}]}", "{\"frames\": [{\"sensor\": 1}]}",
-        "{\"frames\": [{\"sensor\": \"a\", \"frame\": -1, \"outputs\": {}}]}"}) {
+        "{\"frames\": [{\"sensor\": \"a\", \"frame\": -1, \"outputs\": {}}]}",
+        "{\"frames\": [{\"sensor\": \"pmd\", \"frame\": 3.5e38, \"outputs\": [\"pmd_0000.exr\"]}]}",
+        "{\"frames\": [{\"sensor\": \"pmd\", \"frame\": 4294967296, \"outputs\": [\"pmd_0000.exr\"]}]}"}) {
     run.folder.write("manifest.json", text);
     INFO(text);
     CHECK(run.refusal() ==
