@@ -10,12 +10,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <fcntl.h>
 #include <new>
 #include <string>
 #include <string_view>
+#include <unistd.h>
 
 namespace pmdsim {
 namespace {
@@ -34,6 +37,14 @@ constexpr std::array commands{
     Command{"new", run_new},           Command{"schema", run_schema},
     Command{"explain", run_explain},   Command{"correct", run_correct},
     Command{"diodes", run_diodes}};
+
+// So that no file that is opened later takes the number of a stream that is closed, and with it what is
+// printed. Writing there fails as before, but for errors and warnings, which nobody wants then.
+void keep_streams_apart() noexcept {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+}
 
 // Needs no memory, as there may be none, and does not mind that nobody listens.
 ExitCode report(ExitCode code, const char *message) noexcept {
@@ -79,6 +90,7 @@ ExitCode report_caught() noexcept {
 
 int main(int argument_count, char **arguments) {
   using namespace pmdsim;
+  keep_streams_apart();
   try {
     stop_on_signals();
     if (const auto options = parse_options(argument_count, arguments)) {

@@ -52,8 +52,8 @@ std::uint32_t FrameSequence::begin() {
   if (!folder_->has_locks())
     warn({warning_code("no-locks"), request_.directory.string(),
           "its file system has no locks, no other process may write there"});
-  if (const RunFolder::Left &left = folder_->left(); left.frames > 0)
-    warn(left_warning(left));
+  if (const auto left = folder_->left_warning())
+    warn(*left);
   const std::vector<std::uint32_t> recorded = recorded_frames(request_.directory);
   for (std::uint32_t i = 0; i < request_.frames.count(); ++i)
     if (const std::uint32_t frame = request_.frames.at(i);
@@ -66,15 +66,6 @@ std::uint32_t FrameSequence::begin() {
   return to_do_at_start_;
 }
 
-Warning FrameSequence::left_warning(const RunFolder::Left &left) const {
-  const std::string why = left.difference.empty() ? "" : fmt::format(" ({})", left.difference);
-  return {
-      warning_code("earlier-frames-left"), request_.directory.string(),
-      fmt::format("{} frame{} of another run{} {} there as files that the manifest does not list; another "
-                  "-o keeps runs apart",
-                  left.frames, left.frames == 1 ? "" : "s", why, left.frames == 1 ? "stays" : "stay")};
-}
-
 void FrameSequence::write(const Measure &measure, std::size_t part_bytes, std::uint64_t room) {
   try {
     make_all(measure, parts_waiting(part_bytes, room));
@@ -85,7 +76,7 @@ void FrameSequence::write(const Measure &measure, std::size_t part_bytes, std::u
     files_.clear(); // first, as the disk may be full
     keep_finished();
     const bool has_manifest = folder_->keep_whole_frames();
-    if (made_.count == 0)
+    if (std::error_code ignored; made_.count == 0 || !std::filesystem::exists(request_.directory, ignored))
       throw;
     throw Error(error.code(),
                 fmt::format("{}; {} in {}{}", error.what(), whole_text(), request_.directory.string(),

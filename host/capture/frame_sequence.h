@@ -113,7 +113,6 @@ private:
   void publish(Finished &frame);
   void publish_finished();
   void keep_finished() noexcept;
-  Warning left_warning(const RunFolder::Left &left) const;
   std::string whole_text() const;
   std::size_t sensor_count() const { return setup_.start.sensors.size(); }
 

@@ -1,5 +1,6 @@
 #include "host/capture/variant_table.h"
 
+#include "host/input/words/utf8.h"
 #include "host/output/files/channel.h"
 #include "host/output/files/output_set.h"
 #include "host/output/tables/csv.h"
@@ -36,7 +37,9 @@ ordered_json mean_of(const std::vector<float> &values) {
 }
 
 std::string shown(const ordered_json &value) {
-  return value.is_number() ? table_number(value.get<double>()) : value.is_null() ? "-" : value.dump();
+  return value.is_number() ? table_number(value.get<double>())
+         : value.is_null() ? "-"
+                           : in_one_line(value.dump());
 }
 
 // A record that others wrote may tell of what the row says already.
@@ -93,8 +96,9 @@ std::string VariantTable::text() const {
   for (std::size_t i = 0; i < rows_.size() && i < most_lines; ++i) {
     const ordered_json &row = rows_[i];
     const std::string first = row.contains("distance_min_m") ? "" : "f0.";
-    text += fmt::format("{:<24}{:<12}{:>6}", row.at("variant").get<std::string>(),
-                        row.at("sensor").get<std::string>(), row.at("frame").get<std::uint32_t>());
+    text +=
+        fmt::format("{:<24}{:<12}{:>6}", row.at("variant").get<std::string>(),
+                    in_one_line(row.at("sensor").get<std::string>()), row.at("frame").get<std::uint32_t>());
     for (const char *key : {"distance_min_m", "distance_median_m", "distance_max_m", "amplitude_median"})
       text += fmt::format("{:>14}", shown(row.value(first + key, ordered_json())));
     text += '\n';

@@ -17,6 +17,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t most_variants = 100'000;
+constexpr std::size_t most_paths = 1024; // each a column of the table
 
 bool has_one_named(const json &setup, const char *list, const std::string &name) {
   return setup.is_object() && setup.contains(list) && setup.at(list).is_array() &&
@@ -72,6 +73,7 @@ json changes_for(const PosesFromFile &poses, const SetupDocument &document) {
 std::vector<VariantLine> read_variants(const std::filesystem::path &file) {
   const std::string text = read_text_file(file, Place{file});
   std::vector<VariantLine> variants;
+  std::set<std::string> paths;
   std::size_t before = 0; // lines
   for (std::string_view rest = text; !rest.empty(); ++before) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -85,6 +87,10 @@ std::vector<VariantLine> read_variants(const std::filesystem::path &file) {
     variants.push_back({place.line, json_of_line(line, before, file)});
     if (!variants.back().changes.is_object())
       throw input_error(place, "expected an object of paths and values");
+    for (const auto &[path, value] : variants.back().changes.items())
+      paths.insert(path);
+    if (paths.size() > most_paths)
+      throw input_error(place, fmt::format("expected at most {} paths in all variants", most_paths));
   }
   if (variants.empty())
     throw input_error(Place{file}, "expected at least one variant, an object of paths and values a line");

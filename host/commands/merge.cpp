@@ -29,6 +29,8 @@ void run_merge(const Options &options) {
   const Merged merged =
       into.empty() ? manifest_made_again(options)
                    : merge_runs({options.merged, into, options.capture.frames}, throw_if_interrupted);
+  if (merged.left)
+    warn(*merged.left);
   std::vector<std::string> written;
   for (const std::string &sheet : write_sheets(folder, throw_if_interrupted))
     written.push_back((folder / sheet).string());

@@ -35,7 +35,9 @@ inline constexpr std::array<ExitCodeRow, 11> exit_code_rows{
       "Ask for less by a larger --max-error, take --precision fp64 or --mode exact, or leave out --strict: "
       "then "
       "the channel error_bound_m tells which pixels are off by more."},
-     {130, "interrupted", "By SIGINT, SIGTERM or SIGHUP. Frames that were whole stay, and --resume goes on."},
+     {130, "interrupted",
+      "By SIGINT, SIGTERM or SIGHUP. Frames of render and deform that were whole stay, and --resume goes on; "
+      "other commands begin anew."},
      {141, "nobody reads standard output any more",
       "As after `pmdsim explain | head -1`; nothing is said. Files that the command was to write are "
       "whole."}}};

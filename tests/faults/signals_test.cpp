@@ -92,3 +92,17 @@ TEST_CASE("Streams that are closed or full are told of, where that can be") {
   CHECK(run_in_shell(render + " 2>&- >/dev/null").exit_code == 0);
   CHECK(run_in_shell(quoted({"check", "/nowhere.json"}) + " 2>/dev/full").exit_code == 3);
 }
+
+TEST_CASE("No file takes the number of a stream that is closed") {
+  const Sequence sequence(2);
+  const std::vector<std::string> wraps{"--set", "sensors/0/modulation_hz=[90e6]"}; // of which a warning tells
+  for (const auto &[streams, exit_code] : {std::pair(" >&- 2>/dev/null", 7), {" 2>&- >/dev/null", 0}}) {
+    INFO(streams);
+    const std::string out = sequence.work / fmt::format("closed{}", exit_code);
+    CHECK(run_in_shell(quoted(sequence.arguments(out, wraps)) + streams).exit_code == exit_code);
+    std::vector<std::string> again = wraps;
+    again.emplace_back("--resume"); // reads run.json
+    CHECK(run_pmdsim(sequence.arguments(out, again)).exit_code == 0);
+    CHECK(check_whole(out) == 2);
+  }
+}

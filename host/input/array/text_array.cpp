@@ -57,6 +57,16 @@ std::vector<Field> fields_of(std::string_view line) {
   }
 }
 
+// A line may be as long as the file.
+void require_room_for_fields(std::string_view line, const Place &place) {
+  constexpr std::size_t short_line = std::size_t{1} << 20;
+  if (line.size() < short_line)
+    return;
+  const auto separators = std::ranges::count_if(
+      line, [](char c) { return c == ';' || c == ',' || blanks.find(c) != std::string_view::npos; });
+  require_memory(2 * sizeof(Field) * (static_cast<std::size_t>(separators) + 1), place, "a line of it");
+}
+
 // A header line: names of columns, of which none is a number.
 bool are_names(const std::vector<Field> &fields) {
   return std::ranges::all_of(fields, [](const Field &field) {
@@ -82,6 +92,7 @@ ImageArray text_array(std::string_view text, const Place &place) {
     ++at.line;
     if (line.empty() || line.starts_with('#'))
       continue;
+    require_room_for_fields(line, place);
     const std::vector<Field> fields = fields_of(line);
     if (std::exchange(is_first, false) && are_names(fields))
       continue;

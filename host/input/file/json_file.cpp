@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -134,6 +135,18 @@ void make_integer(json &number) {
     number = static_cast<std::int64_t>(value);
 }
 
+// Integers beyond 64 bits with a sign become doubles, as bounds are looked at with a sign.
+void settle_numbers(json &value) {
+  if (value.is_structured())
+    for (json &each : value)
+      settle_numbers(each);
+  else if (value.is_number_float())
+    make_integer(value);
+  else if (value.is_number_unsigned() &&
+           value.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max())
+    value = value.get<double>();
+}
+
 } // namespace
 
 void check_json(std::string_view text, const std::filesystem::path &file, Comments comments) {
@@ -147,12 +160,10 @@ void check_json(std::string_view text, const std::filesystem::path &file, Commen
 
 json parse_json(std::string_view text, const std::filesystem::path &file, Comments comments) {
   check_json(text, file, comments);
-  const auto with_integers = [](int, json::parse_event_t, json &parsed) {
-    if (parsed.is_number_float())
-      make_integer(parsed);
-    return true;
-  };
-  return json::parse(text.begin(), text.end(), with_integers, true, comments == Comments::allowed);
+  // All at once and then looked at: nlohmann's callbacks take a time that grows with the square of a list.
+  json parsed = json::parse(text.begin(), text.end(), nullptr, true, comments == Comments::allowed);
+  settle_numbers(parsed);
+  return parsed;
 }
 
 } // namespace pmdsim

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <openexr.h>
 #include <optional>
@@ -98,6 +99,9 @@ private:
     ReadFrame read{checked_resolution(
         frame_, size(window.min.x, window.max.x), size(window.min.y, window.max.y),
         sizeof(float) * static_cast<std::uint64_t>(channels->num_channels), frame_.content.size())};
+    constexpr std::uint32_t max_columns =
+        std::numeric_limits<std::int32_t>::max() / sizeof(float); // by OpenEXR's strides
+    require(read.resolution.x <= max_columns, "at most 536870911 columns in the EXR file");
     const std::span entries(channels->entries, static_cast<std::size_t>(channels->num_channels));
     for (const exr_attr_chlist_entry_t &entry : entries)
       read.channels.push_back(channel(entry, std::size_t{read.resolution.x} * read.resolution.y));

@@ -341,8 +341,11 @@ DocumentSchema::DocumentSchema(json schema)
 DocumentSchema::~DocumentSchema() = default;
 
 void DocumentSchema::check(const json &document, const Place &root) const {
+  const valijson::adapters::NlohmannJsonAdapter target(document);
+  if (valijson::Validator().validate(*parsed_, target, nullptr)) // ends with the first failure
+    return;
   valijson::ValidationResults failures;
-  if (!valijson::Validator().validate(*parsed_, valijson::adapters::NlohmannJsonAdapter(document), &failures))
+  if (!valijson::Validator().validate(*parsed_, target, &failures))
     throw explained(deepest_failure(failures, document, json_, root), json_);
 }
 

@@ -115,11 +115,16 @@ std::vector<std::string> parts_of_change(const std::string &path, const Place &p
   return *parts;
 }
 
-// Where the value of the last of `parts` is, and `place` then; what is absent on the way is made. `what`
-// begins messages, with the path.
-json *made_at(json &document, Place &place, const std::vector<std::string> &parts, const std::string &what) {
+enum class Absent { made, left };
+
+// Where the value of the last of `parts` is, and `place` then; what is absent on the way is made, or the way
+// ends there, at nothing. `what` begins messages, with the path.
+json *value_at(json &document, Place &place, const std::vector<std::string> &parts, const std::string &what,
+               Absent absent) {
   json *at = &document;
   for (const std::string &part : parts) {
+    if (absent == Absent::left && (at->is_null() || (at->is_object() && !at->contains(part))))
+      return nullptr;
     if (at->is_null())
       *at = json::object();
     if (at->is_object()) {
@@ -140,7 +145,7 @@ json *made_at(json &document, Place &place, const std::vector<std::string> &part
 // Returns the value's JSON pointer.
 std::string put(json &document, Place place, const std::string &path, const json &value,
                 const std::string &what) {
-  *made_at(document, place, parts_of_change(path, place, what), what) = value;
+  *value_at(document, place, parts_of_change(path, place, what), what, Absent::made) = value;
   return place.pointer.to_string();
 }
 
@@ -159,15 +164,13 @@ void remove(json &document, Place place, const std::string &path, const std::str
   std::vector<std::string> parts = parts_of_change(path, place, what);
   const std::string key = parts.back();
   parts.pop_back();
-  json changed = document; // so that nothing is made on the way to what is not there
-  json &holder = *made_at(changed, place, parts, what);
-  if (holder.is_null())
+  json *holder = value_at(document, place, parts, what, Absent::left);
+  if (!holder || holder->is_null())
     return;
-  if (holder.is_object() && holder.erase(key) == 0)
-    return refuse_near_key(holder, key, place, what);
-  if (!holder.is_object())
-    *made_at(holder, place, {key}, what) = nullptr;
-  document = std::move(changed);
+  if (!holder->is_object())
+    *value_at(*holder, place, {key}, what, Absent::left) = nullptr;
+  else if (holder->erase(key) == 0)
+    refuse_near_key(*holder, key, place, what);
 }
 
 } // namespace

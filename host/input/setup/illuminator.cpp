@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
+#include <map>
 #include <numbers>
+#include <vector>
 
 namespace pmdsim {
 
@@ -47,20 +50,30 @@ void append_ring(const ordered_json &ring, const Diode &diode, std::vector<Diode
   }
 }
 
-// The work is bounded by what the rings list, also where active_deg switches most of it off.
-void refuse_endless_rings(const ordered_json &rings, const Place &place) {
+// The work is bounded by what the rings of all illuminators list, also where active_deg switches most of it
+// off.
+void refuse_endless_rings(const ordered_json &illuminators, const Place &place) {
   constexpr std::uint64_t max_listed = 1'000'000;
   std::uint64_t listed = 0;
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    listed += rings[i].at("count").get<std::uint32_t>();
-    if (listed > max_listed)
-      throw input_error(place / i / "count",
-                        fmt::format("expected at most {} diodes in all rings, on or off", max_listed));
+  for (std::size_t i = 0; i < illuminators.size(); ++i) {
+    const ordered_json &diodes = illuminators[i].at("diodes");
+    const ordered_json rings = diodes.contains("rings") ? diodes.at("rings") : ordered_json::array();
+    for (std::size_t k = 0; k < rings.size(); ++k) {
+      listed += rings[k].at("count").get<std::uint32_t>();
+      if (listed > max_listed)
+        throw input_error(place / i / "diodes" / "rings" / k / "count",
+                          fmt::format("expected at most {} diodes in all rings, on or off", max_listed));
+    }
   }
 }
 
+// Each file once, whatever number of illuminators it is for.
+struct LightFiles {
+  DiagramFiles diagrams{};
+  std::map<std::filesystem::path, std::vector<Diode>> tables{};
+};
+
 std::vector<Diode> ring_diodes(const ordered_json &rings, const Diode &diode, const Place &place) {
-  refuse_endless_rings(rings, place);
   std::vector<Diode> diodes;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     append_ring(rings[i], diode, diodes);
@@ -73,8 +86,12 @@ std::vector<Diode> ring_diodes(const ordered_json &rings, const Diode &diode, co
 }
 
 std::vector<Diode> file_diodes(const std::string &name, double intensity, const Place &place,
-                               DiagramFiles &diagrams) {
-  std::vector<Diode> diodes = read_diode_file(place.folder / name, place, diagrams);
+                               LightFiles &files) {
+  const std::filesystem::path file = place.folder / name;
+  auto table = files.tables.find(file);
+  if (table == files.tables.end())
+    table = files.tables.emplace(file, read_diode_file(file, place, files.diagrams)).first;
+  std::vector<Diode> diodes = table->second;
   for (std::size_t i = 0; i < diodes.size(); ++i) {
     diodes[i].intensity_w_sr *= intensity;
     if (diodes[i].intensity_w_sr > max_intensity_w_sr)
@@ -86,15 +103,15 @@ std::vector<Diode> file_diodes(const std::string &name, double intensity, const 
 }
 
 // Ring by ring in the order of their angles, or in the diode file's order.
-std::vector<Diode> diodes_of(const ordered_json &illuminator, const Place &place, DiagramFiles &diagrams) {
+std::vector<Diode> diodes_of(const ordered_json &illuminator, const Place &place, LightFiles &files) {
   const ordered_json &diodes = illuminator.at("diodes");
   const auto intensity_w_sr = illuminator.at("intensity_w_sr").get<double>();
   if (diodes.contains("file"))
-    return file_diodes(diodes.at("file"), intensity_w_sr, place / "diodes" / "file", diagrams);
+    return file_diodes(diodes.at("file"), intensity_w_sr, place / "diodes" / "file", files);
   const ordered_json &pattern = illuminator.at("pattern");
   Diode diode;
   diode.intensity_w_sr = intensity_w_sr;
-  diode.pattern = law_in_setup(pattern, place / "pattern", diagrams);
+  diode.pattern = law_in_setup(pattern, place / "pattern", files.diagrams);
   diode.across = diode_across(diode.axis, glm::radians(pattern.value("roll_deg", 0.0)));
   return diodes.contains("rings") ? ring_diodes(diodes.at("rings"), diode, place / "diodes" / "rings")
                                   : std::vector<Diode>{diode};
@@ -111,14 +128,15 @@ Place place_of_diodes(const ordered_json &illuminator, const Place &place) {
 std::vector<Illuminator> illuminators_of(const ordered_json &illuminators, const Place &place,
                                          const Surroundings &at, const std::vector<Sensor> &sensors,
                                          std::vector<Warning> &warnings) {
-  DiagramFiles diagrams;
+  refuse_endless_rings(illuminators, place);
+  LightFiles files;
   std::vector<Illuminator> result;
   std::size_t diodes = 0;
   for (std::size_t i = 0; i < illuminators.size(); ++i) {
     const ordered_json &illuminator = illuminators[i];
     result.push_back({illuminator.at("name"),
                       world_from_frame(illuminator.at("pose"), place / i / "pose", at, sensors),
-                      diodes_of(illuminator, place / i, diagrams),
+                      diodes_of(illuminator, place / i, files),
                       glm::radians(full_turn(illuminator.at("modulation_phase_deg").get<double>())),
                       illuminator.at("modulation_depth").get<double>()});
     diodes += result.back().diodes.size();
@@ -128,7 +146,7 @@ std::vector<Illuminator> illuminators_of(const ordered_json &illuminators, const
       throw input_error(place / i / "diodes",
                         fmt::format("expected at most {} diodes in all illuminators", max_diodes));
   }
-  warnings.insert(warnings.end(), diagrams.warnings().begin(), diagrams.warnings().end());
+  warnings.insert(warnings.end(), files.diagrams.warnings().begin(), files.diagrams.warnings().end());
   return result;
 }
 

@@ -1,3 +1,4 @@
+#include "host/input/setup/extent.h"
 #include "host/input/setup/setup.h"
 
 #include "host/input/gltf/loader.h"
@@ -59,6 +60,7 @@ json schema_with_scene() {
 ordered_json checked_setup(const SetupDocument &source, bool with_scene = true) {
   static const DocumentSchema any_schema(json::parse(setup_schema_text)), scene_schema(schema_with_scene());
   static const ordered_json ordered_schema = ordered_json::parse(setup_schema_text);
+  require_moderate(source.json, source.root());
   json document = source.json;
   fill_presets(document);
   (with_scene ? scene_schema : any_schema).check(document, source.root());

@@ -271,6 +271,7 @@ Merged merge_runs(const MergeRequest &request, const std::function<void()> &chec
   refuse_missing(frames, places, request);
   RunFolder into(request.into, sources.front().run, frames, RunFolder::Earlier::made_again, check);
   Merged merged{into.run().hash};
+  merged.left = into.left_warning();
   try {
     Bringing bringing(into, merged);
     for (std::size_t i = 0; i < places.size(); ++i) {

@@ -2,6 +2,7 @@
 // Frames of the same run that lie in several folders, as processes leave them that share the work but no
 // folder, brought together in one.
 
+#include "engine/model/warning.h"
 #include "host/output/run/frame_range.h"
 
 #include <cstddef>
@@ -24,6 +25,7 @@ struct Merged {
   std::string run_hash;
   std::size_t frames = 0;
   std::size_t linked = 0, copied = 0; // files of frames
+  std::optional<Warning> left{};      // RunFolder::left_warning() of where they are now
 };
 
 // Files are hard links where the file system can, else copies. A frame that is in several folders is taken

@@ -66,8 +66,15 @@ bool give_name(const ByteLocks &file, const fs::path &temporary, const fs::path 
 // Whether a run leaves files of that name, its own or a frame's.
 bool is_of_a_run(const std::string &name) {
   static const std::regex names(
-      R"(run\.json|manifest\.json|\d{4,}\.record\.json|.+_\d{4,}\..+|.+\.(sheet\.png|apng))");
+      R"(run\.json|manifest\.json|report\.html|table(\..+)?\.csv|\d{4,}\.record\.json|.+_\d{4,}\..+|.+\.(sheet\.png|apng))");
   return std::regex_match(name, names);
+}
+
+// A run that has neither frames nor variants keeps nobody out.
+bool is_barely_begun(const fs::path &folder, const std::optional<RunFile> &found) {
+  std::error_code ignored;
+  return found && !found->run.head.contains("study") && !fs::exists(folder / manifest_name, ignored) &&
+         recorded_frames(folder).empty();
 }
 
 } // namespace
@@ -117,7 +124,7 @@ bool RunFolder::enter_alone(ByteLocks there, const FrameRange &frames, Earlier e
   const std::optional<RunFile> found =
       parsed_run_file(there.content(max_run_json_bytes), path() / run_file_name);
   const bool same_run = found && found->run == run_;
-  if (!same_run && earlier == Earlier::kept)
+  if (!same_run && earlier == Earlier::kept && !is_barely_begun(path(), found))
     throw Error(ExitCode::input, fmt::format("{}: --resume: it holds another run: {}", path().string(),
                                              found ? difference_text(found->run, run_)
                                                    : fmt::format("its {} cannot be read", run_file_name)));
@@ -187,6 +194,17 @@ void RunFolder::remove_leftovers() const {
     if (name && is_of_a_run(*name))
       remove_file(path() / file);
   }
+}
+
+std::optional<Warning> RunFolder::left_warning() const {
+  if (left_.frames == 0)
+    return std::nullopt;
+  const std::string why = left_.difference.empty() ? "" : fmt::format(" ({})", left_.difference);
+  return Warning{
+      warning_code("earlier-frames-left"), path().string(),
+      fmt::format("{} frame{} of another run{} {} there as files that the manifest does not list; another "
+                  "-o keeps runs apart",
+                  left_.frames, left_.frames == 1 ? "" : "s", why, left_.frames == 1 ? "stays" : "stay")};
 }
 
 std::optional<nlohmann::ordered_json> RunFolder::whole(std::uint32_t frame) const {

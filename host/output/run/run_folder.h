@@ -6,6 +6,7 @@
 // Each process that lives in the folder shares a lock; who holds it alone may begin another run there, and
 // knows that the temporary files of the folder are those of the dead.
 
+#include "engine/model/warning.h"
 #include "host/output/files/output_directory.h"
 #include "host/output/files/output_set.h"
 #include "host/output/run/byte_locks.h"
@@ -43,13 +44,9 @@ public:
   const RunIdentity &run() const { return run_; }
   bool is_joined() const { return joined_; }         // others were there
   bool has_locks() const { return locks_->works(); } // else this process must be the only one
-  // Frames of an earlier run of another kind that `frames` do not reach: their files stay, and nothing tells
-  // of them any more.
-  struct Left {
-    std::size_t frames = 0;
-    std::string difference{}; // from that run
-  };
-  const Left &left() const { return left_; }
+  // Of frames of an earlier run of another kind that `frames` do not reach: their files stay, and nothing
+  // tells of them any more. Nothing where there are none.
+  std::optional<Warning> left_warning() const;
   // The frame's record, where it is whole.
   std::optional<nlohmann::ordered_json> whole(std::uint32_t frame) const;
 
@@ -88,6 +85,11 @@ private:
   bool strict_;
   std::optional<ByteLocks> locks_; // of run.json
   bool joined_ = false, has_manifest_ = false;
+  // Of that earlier run.
+  struct Left {
+    std::size_t frames = 0;
+    std::string difference{}; // from this one
+  };
   Left left_;
 };
 

@@ -93,8 +93,9 @@ Strips strips_of(const fs::path &folder, const std::string &run_hash, const std:
     if (!record || !has_its_files(folder, *record) || !add_frame(*record, frame, strips))
       return {};
   }
-  std::erase_if(strips,
-                [&](const auto &of) { return !is_plain(of.second.sensor) || !is_whole(of.second, shown); });
+  std::erase_if(strips, [&](const auto &of) {
+    return !is_plain(of.second.sensor) || !is_plain(of.first.second) || !is_whole(of.second, shown);
+  });
   return strips;
 }
 

@@ -68,7 +68,8 @@ std::string text_in(const ordered_json &json) {
 
 std::optional<Range> range_in(const ordered_json &json) {
   const Range range{json.at(0).get<double>(), json.at(1).get<double>()};
-  const bool is_range = std::isfinite(range.span()) && range.span() >= 0.0;
+  constexpr double largest = std::numeric_limits<float>::max();
+  const bool is_range = range.span() >= 0.0 && range.min >= -largest && range.max <= largest;
   return is_range ? std::optional(range) : std::nullopt;
 }
 

@@ -1,8 +1,10 @@
-// The table of results of variants, from records that others may have written.
+// Variants from strangers' files, and the table of their results from records that others may have written.
 
 #include "host/capture/variant_table.h"
+#include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 using namespace pmdsim;
 using nlohmann::json;
@@ -27,4 +29,24 @@ TEST_CASE("what a record tells of a frame is beside what the row says, and never
   CHECK(row.find(" 7 ") != std::string::npos);
   CHECK(row.find("1.25") != std::string::npos);
   CHECK(row.find("\"high\"\n") != std::string::npos);
+}
+
+TEST_CASE("the table that people read has no control characters of a record") {
+  const Variant variant{"0000", {}, json::object()};
+  VariantTable table({variant});
+  const ordered_json manifest{
+      {"sensor", "\x1b[2J\xc2\x9b"}, {"frame", 0}, {"time_s", 0.0}, {"error_claimed_m", nullptr}};
+  table.add(variant, {{"manifest", manifest}, {"told", {{"distance_min_m", "\x7f\xc2\x9b"}}}});
+  for (const char *character : {"\x1b", "\x7f", "\xc2\x9b"})
+    CHECK(table.text().find(character) == std::string::npos);
+}
+
+TEST_CASE("all variants of a file change so many paths at most") {
+  const test::TemporaryFolder folder;
+  std::string lines;
+  for (int i = 0; i < 1024; ++i)
+    lines += fmt::format("{{\"a{}\": 1}}\n", i);
+  CHECK(read_variants(folder.write("variants.jsonl", lines + lines)).size() == 2048);
+  CHECK_THROWS_WITH(read_variants(folder.write("variants.jsonl", lines + "{\"b\": 1}\n")),
+                    Catch::EndsWith("variants.jsonl:1025: expected at most 1024 paths in all variants"));
 }

@@ -150,6 +150,19 @@ TEST_CASE("another run replaces one that nobody is at, unless its frames are to 
   CHECK(names_in(folder.path) == std::set<std::string>{"pmd_0000.txt", "run.json"});
 }
 
+TEST_CASE("a run of which nothing was measured keeps nobody out") {
+  const Folder folder;
+  std::string text;
+  {
+    const RunFolder begun = folder.entered("a");
+    text = content_of(folder.path / "run.json");
+  }
+  std::filesystem::create_directories(folder.path); // as a killed process leaves it
+  std::ofstream(folder.path / "run.json") << text;
+  const RunFolder after = folder.entered("b", Earlier::kept);
+  CHECK(content_of(folder.path / "run.json") != text);
+}
+
 TEST_CASE("another run is refused while somebody is at one") {
   const Folder folder;
   RunFolder living = folder.entered("a");

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <sys/stat.h>
 
 using namespace pmdsim::test;
 namespace fs = std::filesystem;
@@ -96,6 +97,18 @@ TEST_CASE("commands replace links in their output folders") {
     const std::string variants = work.write("variants.jsonl", "{}\n{\"sensors/0/samples\": 2}\n");
     check_replaces_links(work, {"render", setup, "--variants", variants, "-o", work / "out"}, "out");
   }
+}
+
+TEST_CASE("a file that the user names is written through a link, and never in the place of what is no file") {
+  const Workspace work;
+  fs::create_symlink(work.write("schema.json", "old"), work / "link.json");
+  CHECK(run_pmdsim({"schema", "-o", work / "link.json"}).exit_code == 0);
+  CHECK(fs::is_symlink(work / "link.json"));
+  CHECK(fs::file_size(work / "schema.json") > 1000);
+  REQUIRE(::mkfifo((work / "fifo").c_str(), 0600) == 0);
+  const Run refused = run_pmdsim({"schema", "-o", work / "fifo"});
+  CHECK(refused.exit_code == 7);
+  CHECK(refused.errors.find("fifo: cannot be written: is no file") != std::string::npos);
 }
 
 TEST_CASE("an output folder may be a link of the user's, a folder of variants inside of it may not") {

@@ -97,6 +97,21 @@ TEST_CASE("an edited record costs the pictures alone") {
   CHECK(frames.frames_in_manifest("out") == 4);
 }
 
+TEST_CASE("a record's channel that can name no file has no pictures") {
+  const PictureFrames frames(2);
+  frames.render("out", {});
+  for (const std::uint32_t frame : {0u, 1u}) {
+    auto edited = nlohmann::ordered_json::parse(bytes_in(frames.record("out", frame)));
+    for (auto &sensor : edited["sensors"])
+      sensor["thumbnails"][0]["channel"] = "a/../../evil";
+    frames.work.write(fmt::format("out/{:04}.record.json", frame), edited.dump());
+  }
+  const Run merged = run_pmdsim({"merge", frames.work / "out"});
+  INFO(merged.errors);
+  CHECK(merged.exit_code == 0);
+  CHECK(merged.output.find("evil") == std::string::npos);
+}
+
 TEST_CASE("render and deform tell of the pictures") {
   const PictureFrames frames(2);
   const Run text = run_pmdsim(

@@ -157,6 +157,24 @@ TEST_CASE("A shard of variants") {
   CHECK_FALSE(std::filesystem::exists(small.work / "none/table.7-of-9.csv"));
 }
 
+TEST_CASE("Variants do not go on in the folder of a run without them, and tell of its frames") {
+  const Small small;
+  const std::string variants = small.work.write("variants.jsonl", "{}\n");
+  const std::vector<std::string> study{small.setup, "--variants", variants, "-o", small.work / "one"};
+  std::vector<std::string> resumed = study;
+  resumed.emplace_back("--resume");
+  REQUIRE(small.render({small.setup, "-o", small.work / "one"}).exit_code == 0);
+  const Run refused = small.render(resumed);
+  CHECK(refused.exit_code == 3);
+  CHECK(refused.errors.find("--resume: it holds another run: it has no variants there") != std::string::npos);
+  CHECK(std::filesystem::exists(small.work / "one/0000.record.json"));
+  const Run told = small.render(study);
+  CHECK(told.exit_code == 0);
+  CHECK(told.errors.find("1 frame of another run (it has no variants there) stays there") !=
+        std::string::npos);
+  CHECK(small.render(resumed).exit_code == 0);
+}
+
 TEST_CASE("Another study is kept out of the folder, and an interrupted one tells how far it came") {
   const Small small;
   std::string lines, others;

@@ -134,6 +134,22 @@ TEST_CASE("arrays in an archive ask for memory as they grow") {
              Contains("large.npz: out of memory: "));
 }
 
+TEST_CASE("lines of numbers ask for the memory of their fields") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("long.txt", repeated("1 ", 5'000'000));
+  CHECK_THAT(out_of_memory_of([&] { read_image_arrays(file, any_array); }),
+             Contains("long.txt: out of memory: a line of it needs "));
+}
+
+TEST_CASE("lists of a scene ask for the memory of what they become") {
+  const TemporaryFolder folder;
+  json gltf = one_triangle();
+  gltf["materials"] = json::array_t(20'000, json::object());
+  const auto file = folder.write("scene.gltf", gltf.dump());
+  CHECK_THAT(out_of_memory_of([&] { load_gltf(file, Place{file}).at(0); }),
+             Contains("scene.gltf: out of memory: a model of its lists needs "));
+}
+
 TEST_CASE("primitives that share an accessor ask for the memory of each") {
   constexpr std::size_t vertices = 999'999; // zeros, of which the file has no bytes
   json gltf = one_triangle();

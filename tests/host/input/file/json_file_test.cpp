@@ -19,9 +19,17 @@ TEST_CASE("JSON text is read") {
 }
 
 TEST_CASE("A number without a fractional part is an integer") {
-  const auto numbers = parse_json("[8.0, -2e3, 8.5, 1e300, 9007199254740992.0, 18446744073709551615]",
+  const auto numbers = parse_json("[8.0, -2e3, 8.5, 1e300, 9007199254740992.0, 9223372036854775807]",
                                   "a.json", Comments::refused);
-  CHECK(numbers.dump() == "[8,-2000,8.5,1e+300,9007199254740992,18446744073709551615]");
+  CHECK(numbers.dump() == "[8,-2000,8.5,1e+300,9007199254740992,9223372036854775807]");
+}
+
+TEST_CASE("An integer beyond 64 bits with a sign is a double, so that no bound takes it for a negative one") {
+  const auto numbers =
+      parse_json(R"({"a": [18446744073709551615, {"b": 9223372036854775808}]})", "a.json", Comments::refused);
+  CHECK(numbers["a"][0].is_number_float());
+  CHECK(numbers["a"][0] == 18446744073709551616.0);
+  CHECK(numbers["a"][1]["b"] == 9223372036854775808.0);
 }
 
 TEST_CASE("A syntax error names line and column") {

@@ -1,5 +1,7 @@
+#include "host/input/setup/extent.h"
 #include "tests/host/input/setup/setup_fixture.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 using namespace pmdsim;
@@ -173,6 +175,55 @@ TEST_CASE("Rings that list too much are refused, even if they are off") {
   list(10);
   CHECK_THAT(fixture.error(),
              EndsWith("/diodes/rings/10/count: expected at most 1000000 diodes in all rings, on or off"));
+}
+
+TEST_CASE("Rings of all illuminators together have a limit") {
+  SetupFixture fixture;
+  const json dark{{"radius_m", 0.1}, {"count", 100'000}, {"active_deg", {0, 0}}};
+  fixture.illuminator()["diodes"]["rings"] = {{{"radius_m", 0.1}, {"count", 8}}};
+  for (int i = 0; i < 5; ++i)
+    fixture.illuminator()["diodes"]["rings"].push_back(dark);
+  json second = fixture.illuminator();
+  second["name"] = "second";
+  fixture.setup["illuminators"].push_back(second);
+  CHECK_THAT(fixture.error(),
+             EndsWith("/illuminators/1/diodes/rings/5/count: expected at most 1000000 diodes in "
+                      "all rings, on or off"));
+}
+
+TEST_CASE("A table of diodes that several illuminators name is the same for each") {
+  SetupFixture fixture;
+  fixture.folder.write("diodes.csv", "x_m,y_m,z_m\n0.1,0,0\n-0.1,0,0\n");
+  fixture.illuminator()["diodes"] = {{"file", "diodes.csv"}};
+  json second = fixture.illuminator();
+  second["name"] = "second";
+  second["intensity_w_sr"] = 3.0;
+  fixture.setup["illuminators"].push_back(second);
+  const Setup setup = fixture.load();
+  REQUIRE(setup.start.illuminators.size() == 2);
+  CHECK(setup.start.illuminators[0].diodes.size() == 2);
+  CHECK(setup.start.illuminators[1].diodes.at(1).position_m ==
+        setup.start.illuminators[0].diodes.at(1).position_m);
+  CHECK(setup.start.illuminators[1].diodes.at(1).intensity_w_sr ==
+        3.0 * setup.start.illuminators[0].diodes.at(1).intensity_w_sr);
+}
+
+TEST_CASE("Lists, objects and values of a setup have limits") {
+  SetupFixture fixture;
+  fixture.sensor()["pose"] = {{"sensor", "pmd"}, {"chain", json::array()}};
+  for (std::size_t i = 0; i < max_setup_entries + 1; ++i)
+    fixture.sensor()["pose"]["chain"].push_back(1);
+  CHECK_THAT(fixture.error(), EndsWith("/sensors/0/pose/chain: expected at most 4096 entries, found 4097"));
+
+  fixture.sensor().erase("pose");
+  for (std::size_t i = 0; i < max_setup_entries + 1; ++i)
+    fixture.setup["nodes"][fmt::format("n{}", i)] = nullptr;
+  CHECK_THAT(fixture.error(), EndsWith("/nodes: expected at most 4096 entries, found 4097"));
+
+  fixture.setup["nodes"] = json::object();
+  for (std::size_t i = 0; i < 17; ++i)
+    fixture.setup["nodes"][fmt::format("n{}", i)] = json::array_t(max_setup_entries, 0);
+  CHECK_THAT(fixture.error(), Contains("expected at most 65536 values, found 697"));
 }
 
 TEST_CASE("Nodes that are no place for a camera") {

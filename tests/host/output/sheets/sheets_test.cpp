@@ -131,6 +131,8 @@ TEST_CASE("what is no thumbnail any more is refused") {
                                                                  {"resolution", "2"},
                                                                  {"range", {1.0}},
                                                                  {"range", {2.0, 1.0}},
+                                                                 {"range", {1e300, 1e301}},
+                                                                 {"range", {-1e39, 1.0}},
                                                                  {"range", {nullptr, 1}},
                                                                  {"channel", ""},
                                                                  {"channel", std::string(1000, 'x')},
