@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <fmt/format.h>
 #include <string_view>
 #include <unistd.h>
@@ -15,16 +17,34 @@ namespace pmdsim {
 namespace {
 
 std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
+              "a signal handler may touch nothing else");
 
 std::atomic<bool> tells{false}; // stderr is a terminal
 
-// A step may take seconds to its next safe point.
-void remember(int) {
-  constexpr std::string_view text = "\r\x1b[Kpmdsim: stopping at the next safe point\r\n";
+std::atomic<std::int64_t> first_came_s{0};
+constexpr std::int64_t patience_s = 1; // several at once, as schedulers send them, are one
+
+std::int64_t clock_s() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec;
+}
+
+// A step may take seconds to its next safe point, and there is none in reading a file. Who asks again does
+// not want to wait for it.
+void remember(int signal) {
+  constexpr std::string_view text =
+      "\r\x1b[Kpmdsim: stopping at the next safe point; once more ends it at once\r\n";
   const int error_before = errno;
-  if (!interrupted.exchange(true) && tells) [[maybe_unused]]
-    const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  if (!interrupted.exchange(true)) {
+    first_came_s = clock_s();
+    if (tells) [[maybe_unused]]
+      const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  } else if (clock_s() > first_came_s + patience_s) {
+    std::signal(signal, SIG_DFL);
+    ::raise(signal);
+  }
   errno = error_before;
 }
 

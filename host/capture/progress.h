@@ -14,7 +14,7 @@ namespace pmdsim {
 
 // Installs the handlers of the signals; once, at the start. SIGHUP stays ignored where nohup has made it so.
 // A write to nobody, or beyond the size that a file may have, is an error where it is made, and ends nothing
-// by itself.
+// by itself. A second signal, a second or two after the first or later, ends the process at once.
 void stop_on_signals();
 
 // Throws Error (interrupted) where a signal has come.

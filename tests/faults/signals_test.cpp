@@ -106,3 +106,15 @@ TEST_CASE("No file takes the number of a stream that is closed") {
     CHECK(check_whole(out) == 2);
   }
 }
+
+TEST_CASE("A second signal ends what has no safe point") {
+  const Sequence sequence(1);
+  const std::string fifo = "'" + (sequence.work / "fifo") + "'";
+  // The pipe is nearly full, and nobody reads it: the page waits to be written.
+  const ShellRun run = run_in_shell(
+      "mkfifo " + fifo + "; sleep 60 <" + fifo + " & reader=$!; head -c 60000 /dev/zero >" + fifo + "; " +
+      quoted({"explain", "--markdown"}) + " >" + fifo + " & writer=$!; " +
+      "sleep 1; kill -TERM $writer; kill -TERM $writer; sleep 3; kill -0 $writer && echo waits; " +
+      "kill -TERM $writer; wait $writer; echo $?; kill $reader");
+  CHECK(run.output == "waits\n143\n");
+}

@@ -100,7 +100,7 @@ TEST_CASE("an edited record costs the pictures alone") {
 TEST_CASE("a record's channel that can name no file has no pictures") {
   const PictureFrames frames(2);
   frames.render("out", {});
-  for (const std::uint32_t frame : {0u, 1u}) {
+  for (const int frame : {0, 1}) {
     auto edited = nlohmann::ordered_json::parse(bytes_in(frames.record("out", frame)));
     for (auto &sensor : edited["sensors"])
       sensor["thumbnails"][0]["channel"] = "a/../../evil";

@@ -18,6 +18,7 @@
 #include <bit>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <random>
 #include <vector>
 
@@ -32,7 +33,10 @@ namespace {
 // While it lives, the process may take no more than so much beside what it has.
 class LittleMemory {
 public:
-  explicit LittleMemory(std::uint64_t bytes) { set_max_memory(taken_memory() + bytes); }
+  explicit LittleMemory(std::uint64_t bytes) {
+    malloc_trim(0); // what was freed is not taken
+    set_max_memory(taken_memory() + bytes);
+  }
   ~LittleMemory() { set_max_memory(std::nullopt); }
   LittleMemory(const LittleMemory &) = delete;
   LittleMemory &operator=(const LittleMemory &) = delete;

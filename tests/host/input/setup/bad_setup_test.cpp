@@ -193,7 +193,9 @@ TEST_CASE("Rings of all illuminators together have a limit") {
 
 TEST_CASE("A table of diodes that several illuminators name is the same for each") {
   SetupFixture fixture;
-  fixture.folder.write("diodes.csv", "x_m,y_m,z_m\n0.1,0,0\n-0.1,0,0\n");
+  fixture.folder.write(
+      "diodes.csv",
+      "x_m,y_m,z_m,axis_x,axis_y,axis_z,intensity_w_sr,pattern\n0.1,0,0,0,0,1,1,1\n-0.1,0,0,0,0,1,1,1\n");
   fixture.illuminator()["diodes"] = {{"file", "diodes.csv"}};
   json second = fixture.illuminator();
   second["name"] = "second";
@@ -223,7 +225,7 @@ TEST_CASE("Lists, objects and values of a setup have limits") {
   fixture.setup["nodes"] = json::object();
   for (std::size_t i = 0; i < 17; ++i)
     fixture.setup["nodes"][fmt::format("n{}", i)] = json::array_t(max_setup_entries, 0);
-  CHECK_THAT(fixture.error(), Contains("expected at most 65536 values, found 697"));
+  CHECK_THAT(fixture.error(), Contains("expected at most 65536 values, found 69672"));
 }
 
 TEST_CASE("Nodes that are no place for a camera") {
