@@ -9,7 +9,8 @@ namespace pmdsim {
 void run_schema(const Options &options) {
   if (options.schema_file.empty())
     return print(std::string(setup_schema_text));
-  OutputFile file(named_file(options.schema_file));
+  refuse_what_is_no_file(options.schema_file);
+  OutputFile file(options.schema_file);
   file.write(setup_schema_text);
   file.sync();
   file.close();

@@ -35,15 +35,12 @@ Error write_error(const std::filesystem::path &path, int error_number) {
                      error_number == ENOMEM ? Lacking::memory : Lacking::other);
 }
 
-std::filesystem::path named_file(const std::filesystem::path &path) {
-  std::error_code error;
-  const auto file =
-      std::filesystem::is_symlink(path, error) ? std::filesystem::weakly_canonical(path, error) : path;
-  const auto type = std::filesystem::status(file, error).type();
+void refuse_what_is_no_file(const std::filesystem::path &path) {
+  std::error_code ignored;
   using enum std::filesystem::file_type;
-  if (type != not_found && type != regular && type != directory && type != none)
+  const auto type = std::filesystem::symlink_status(path, ignored).type();
+  if (type == fifo || type == character || type == block || type == socket)
     throw write_error(path, "is no file, expected the name of one", Lacking::other);
-  return file;
 }
 
 std::filesystem::path temporary_name(const std::filesystem::path &path) {

@@ -72,9 +72,9 @@ private:
   int first_error_ = 0; // errno of the first write that failed
 };
 
-// Where a file goes whose name somebody gave: through links, to what they lead to. Throws Error (output)
-// where there is something that is no file, such as a device.
-std::filesystem::path named_file(const std::filesystem::path &path);
+// Throws Error (output) where a device, a pipe or a socket is in the place of a file whose name somebody
+// gave: it would be replaced.
+void refuse_what_is_no_file(const std::filesystem::path &path);
 
 // Hidden and beside `path`, and another each time, as several processes may write to one directory:
 // ".NAME.0123abcd.partial".

@@ -42,7 +42,8 @@ WrittenReport write_report(const ReportRequest &request, const std::function<voi
   const auto most = static_cast<std::size_t>(request.max_mib * mib);
   PageData data = page_data(run, most > around ? most - around : 0, check);
 
-  const fs::path path = request.file.empty() ? request.directory / report_name : named_file(request.file);
+  const fs::path path = request.file.empty() ? request.directory / report_name : request.file;
+  refuse_what_is_no_file(path);
   WrittenReport written{path.string(), 0, data.frames, left_out_text(data.plan, data.frames, data.channels)};
   const ordered_json json{{"title", short_name(request.directory)}, {"head", std::move(run.head)},
                           {"sensors", std::move(data.sensors)},     {"colours", colours_json()},
