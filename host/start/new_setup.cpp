@@ -2,13 +2,17 @@
 
 #include "engine/model/error.h"
 #include "host/input/schema/schema_check.h"
-#include "host/output/files/output_directory.h"
+#include "host/input/words/folder_names.h"
+#include "host/output/files/output_file.h"
 #include "host/output/files/output_set.h"
 #include "host/output/scene/gltf_writer.h"
 #include "host/start/setup_text.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace pmdsim {
 namespace {
@@ -23,7 +27,10 @@ void refuse_what_is_there(const fs::path &folder) {
   if (!fs::is_directory(status))
     throw Error(ExitCode::output,
                 fmt::format("{}: exists and is no folder, expected the name of a new one", folder.string()));
-  if (!is_free(folder, error) || error)
+  const std::vector<std::string> names = names_in(folder, error);
+  // What a killed program was writing does not count.
+  if (error ||
+      !std::ranges::all_of(names, [](const auto &name) { return name_of_temporary(name).has_value(); }))
     throw Error(ExitCode::output, fmt::format("{}: the folder is not empty, expected a new one, or --force "
                                               "to replace files of the same names",
                                               folder.string()));

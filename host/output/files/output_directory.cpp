@@ -1,14 +1,10 @@
 #include "host/output/files/output_directory.h"
 
 #include "engine/model/error.h"
-#include "host/input/words/folder_names.h"
-#include "host/output/files/output_file.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <fmt/format.h>
 #include <ranges>
-#include <string>
 #include <system_error>
 #include <unistd.h>
 
@@ -66,11 +62,5 @@ void refuse_linked_folders(const fs::path &directory, const fs::path &folder) {
 }
 
 OutputDirectory::~OutputDirectory() { remove_if_empty(created_); }
-
-bool is_free(const std::filesystem::path &folder, std::error_code &error) {
-  const std::vector<std::string> names = names_in(folder, error);
-  return std::ranges::all_of(names,
-                             [](const std::string &name) { return name_of_temporary(name).has_value(); });
-}
 
 } // namespace pmdsim

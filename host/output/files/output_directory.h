@@ -2,7 +2,6 @@
 // A directory for outputs, which comes with the first of them.
 
 #include <filesystem>
-#include <system_error>
 #include <vector>
 
 namespace pmdsim {
@@ -29,9 +28,5 @@ private:
 // `directory`, which itself may be one. Nothing is written through links that somebody else may have put
 // there.
 void refuse_linked_folders(const std::filesystem::path &directory, const std::filesystem::path &folder);
-
-// Whether nothing is in a folder but what a killed program was writing there. `error` says that it cannot be
-// read.
-bool is_free(const std::filesystem::path &folder, std::error_code &error);
 
 } // namespace pmdsim
