@@ -16,19 +16,18 @@
 namespace pmdsim {
 namespace {
 
-std::atomic<bool> interrupted{false};
+std::atomic<std::int64_t> first_signal_s{0}; // when it came; 0: none has
+std::atomic<bool> tells{false};              // stderr is a terminal
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
               "a signal handler may touch nothing else");
 
-std::atomic<bool> tells{false}; // stderr is a terminal
-
-std::atomic<std::int64_t> first_came_s{0};
 constexpr std::int64_t patience_s = 1; // several at once, as schedulers send them, are one
 
+// At least 1.
 std::int64_t clock_s() {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec;
+  return now.tv_sec + 1;
 }
 
 // A step may take seconds to its next safe point, and there is none in reading a file. Who asks again does
@@ -37,11 +36,12 @@ void remember(int signal) {
   constexpr std::string_view text =
       "\r\x1b[Kpmdsim: stopping at the next safe point; once more ends it at once\r\n";
   const int error_before = errno;
-  if (!interrupted.exchange(true)) {
-    first_came_s = clock_s();
+  const std::int64_t now_s = clock_s();
+  std::int64_t before_s = 0;
+  if (first_signal_s.compare_exchange_strong(before_s, now_s)) {
     if (tells) [[maybe_unused]]
       const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
-  } else if (clock_s() > first_came_s + patience_s) {
+  } else if (now_s > before_s + patience_s) {
     std::signal(signal, SIG_DFL);
     ::raise(signal);
   }
@@ -86,7 +86,7 @@ void stop_on_signals() {
 }
 
 void throw_if_interrupted() {
-  if (interrupted)
+  if (first_signal_s != 0)
     throw Error(ExitCode::interrupted, "interrupted");
 }
 

@@ -91,16 +91,6 @@ RunIdentity identity_of(const Study &study) {
   return {head, content_hash(head.dump())};
 }
 
-// As identity_of(). A run without variants does not go on as one with them, as its records would go.
-RunIdentity identity_in(const std::filesystem::path &folder, const Study &study, bool resume) {
-  RunIdentity identity = identity_of(study);
-  if (std::error_code ignored;
-      resume && std::filesystem::exists(folder / run_file_name, ignored) && !recorded_frames(folder).empty())
-    throw Error(ExitCode::input, fmt::format("{}: --resume: it holds another run: {}", folder.string(),
-                                             difference_text(read_run_file(folder).run, identity)));
-  return identity;
-}
-
 // Shards that write to one directory have a table each.
 std::string table_name(const Shard &shard) {
   return shard.count == 1 ? "table.csv" : fmt::format("table.{}-of-{}.csv", shard.index, shard.count);
@@ -116,9 +106,9 @@ public:
   explicit VariantRun(const Options &options)
       : options_(options), study_(checked_study(options, loader_)),
         camera_(std::make_shared<Camera>(options.capture.device)),
-        folder_(options.capture.output_directory,
-                identity_in(options.capture.output_directory, study_, options.capture.resume), {0, 0, 1},
-                RunFolder::Earlier::made_again, throw_if_interrupted),
+        folder_(options.capture.output_directory, identity_of(study_), {0, 0, 1},
+                options.capture.resume ? RunFolder::Earlier::kept : RunFolder::Earlier::made_again,
+                throw_if_interrupted),
         table_(study_.own), json_{{"device", camera_->device()},
                                   {"mode", mode_name(options.capture.accuracy.mode)},
                                   {"variants", ordered_json::array()}} {}

@@ -86,6 +86,12 @@ void refuse_other_versions(const json &document, const Place &root) {
 
 } // namespace
 
+const json &list_at(const json &object, const char *key) {
+  static const json empty_array = json::array();
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return object.is_object() && found != object.end() && found->is_array() ? *found : empty_array;
+}
+
 GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &named_at) {
   const auto bytes =
       std::make_shared<const std::string>(read_regular_file(file, max_gltf_file_bytes, named_at));

@@ -30,6 +30,9 @@ struct GltfDocument {
 // file.
 GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &named_at);
 
+// An array of an object, or an empty one: not all of them have passed the schema.
+const nlohmann::json &list_at(const nlohmann::json &object, const char *key);
+
 // Throws Error (input) where an index of a document that has passed the glTF schema names nothing, or a
 // feature is used that is not supported yet.
 void check_references(const nlohmann::json &document, const Place &root);

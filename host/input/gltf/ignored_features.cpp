@@ -1,5 +1,6 @@
 #include "host/input/gltf/ignored_features.h"
 
+#include "host/input/gltf/document.h"
 #include "host/input/gltf/extensions.h"
 #include "host/input/gltf/material/ignored_optics.h"
 
@@ -49,13 +50,6 @@ constexpr std::array silent_extensions{
     "KHR_xmp_json_ld",
     "MSFT_texture_dds",
 };
-
-// An array of the document, or an empty one: not all of them have passed the schema.
-const json &list_at(const json &object, const char *key) {
-  static const json empty_array = json::array();
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  return object.is_object() && found != object.end() && found->is_array() ? *found : empty_array;
-}
 
 const json *extension_of(const json &object, const char *name) {
   if (!object.is_object() || !object.contains("extensions") || !object.at("extensions").is_object())

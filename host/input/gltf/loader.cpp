@@ -43,22 +43,16 @@ void replace_views(std::vector<DecodedView> &decoded, tinygltf::Model &model) {
   }
 }
 
-const json &list_in(const json &object, const char *key) {
-  static const json none = json::array();
-  const auto list = object.find(key);
-  return list == object.end() ? none : *list;
-}
-
 // tinygltf's structs are much larger than their text may be.
 void require_room_for_model(const json &document, const std::filesystem::path &file) {
   constexpr std::size_t material_bytes = 4096, other_bytes = 1024; // about
-  std::size_t bytes = list_in(document, "materials").size() * material_bytes;
+  std::size_t bytes = list_at(document, "materials").size() * material_bytes;
   for (const char *key : {"nodes", "meshes", "accessors", "bufferViews", "animations", "skins"})
-    bytes += list_in(document, key).size() * other_bytes;
-  for (const json &mesh : list_in(document, "meshes"))
-    bytes += list_in(mesh, "primitives").size() * other_bytes;
-  for (const json &animation : list_in(document, "animations"))
-    bytes += (list_in(animation, "channels").size() + list_in(animation, "samplers").size()) * other_bytes;
+    bytes += list_at(document, key).size() * other_bytes;
+  for (const json &mesh : list_at(document, "meshes"))
+    bytes += list_at(mesh, "primitives").size() * other_bytes;
+  for (const json &animation : list_at(document, "animations"))
+    bytes += (list_at(animation, "channels").size() + list_at(animation, "samplers").size()) * other_bytes;
   require_memory(bytes, Place{file}, "a model of its lists");
 }
 

@@ -24,6 +24,7 @@ class DocumentSchema {
 public:
   explicit DocumentSchema(nlohmann::json schema);
   ~DocumentSchema();
+  bool allows(const nlohmann::json &document) const;
   // A wrong key or value is thrown as Error (input) with its place in the document, which is at `root`.
   void check(const nlohmann::json &document, const Place &root) const;
 

@@ -1,7 +1,5 @@
 #include "host/input/setup/extent.h"
 
-#include "host/input/file/memory_request.h"
-
 #include <fmt/format.h>
 
 namespace pmdsim {
@@ -26,12 +24,11 @@ std::size_t checked_values(const json &value, const Place &place) {
 
 } // namespace
 
-void require_moderate(const json &document, const Place &root) {
-  constexpr std::size_t failure_bytes = 8192; // about, of a value that the schema does not allow
+std::size_t values_of_setup(const json &document, const Place &root) {
   const std::size_t values = checked_values(document, root);
   if (values > max_setup_values)
     throw input_error(root, fmt::format("expected at most {} values, found {}", max_setup_values, values));
-  require_memory(values * failure_bytes, root, fmt::format("checking {} values", values));
+  return values;
 }
 
 } // namespace pmdsim

@@ -57,9 +57,8 @@ void refuse_endless_rings(const ordered_json &illuminators, const Place &place) 
   std::uint64_t listed = 0;
   for (std::size_t i = 0; i < illuminators.size(); ++i) {
     const ordered_json &diodes = illuminators[i].at("diodes");
-    const ordered_json rings = diodes.contains("rings") ? diodes.at("rings") : ordered_json::array();
-    for (std::size_t k = 0; k < rings.size(); ++k) {
-      listed += rings[k].at("count").get<std::uint32_t>();
+    for (std::size_t k = 0; diodes.contains("rings") && k < diodes.at("rings").size(); ++k) {
+      listed += diodes.at("rings")[k].at("count").get<std::uint32_t>();
       if (listed > max_listed)
         throw input_error(place / i / "diodes" / "rings" / k / "count",
                           fmt::format("expected at most {} diodes in all rings, on or off", max_listed));

@@ -1,8 +1,9 @@
-#include "host/input/setup/extent.h"
 #include "host/input/setup/setup.h"
 
+#include "host/input/file/memory_request.h"
 #include "host/input/gltf/loader.h"
 #include "host/input/schema/schema_check.h"
+#include "host/input/setup/extent.h"
 #include "host/input/setup/free_pose.h"
 #include "host/input/setup/parts.h"
 #include "host/input/setup/plausibility.h"
@@ -57,13 +58,22 @@ json schema_with_scene() {
   return schema;
 }
 
+// The way to each value that is not allowed is kept, until the one is found that is told of.
+void check_setup(const DocumentSchema &schema, const json &document, std::size_t values, const Place &root) {
+  constexpr std::size_t failure_bytes = 8192; // about
+  if (schema.allows(document))
+    return;
+  require_memory(values * failure_bytes, root, "looking for what is wrong");
+  schema.check(document, root);
+}
+
 ordered_json checked_setup(const SetupDocument &source, bool with_scene = true) {
   static const DocumentSchema any_schema(json::parse(setup_schema_text)), scene_schema(schema_with_scene());
   static const ordered_json ordered_schema = ordered_json::parse(setup_schema_text);
-  require_moderate(source.json, source.root());
+  const std::size_t values = values_of_setup(source.json, source.root());
   json document = source.json;
   fill_presets(document);
-  (with_scene ? scene_schema : any_schema).check(document, source.root());
+  check_setup(with_scene ? scene_schema : any_schema, document, values, source.root());
   refuse_second_pattern(document, source.root());
   return with_all_defaults(document, ordered_schema);
 }

@@ -36,6 +36,8 @@ std::string short_name(const fs::path &directory) {
 } // namespace
 
 WrittenReport write_report(const ReportRequest &request, const std::function<void()> &check) {
+  if (!request.file.empty())
+    refuse_what_is_no_file(request.file);
   RunContent run = read_run(request.directory, request.frames);
   const std::string head_text = run.head.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
   const std::size_t around = page_html.size() + page_style.size() + page_script.size() + head_text.size();
@@ -43,7 +45,6 @@ WrittenReport write_report(const ReportRequest &request, const std::function<voi
   PageData data = page_data(run, most > around ? most - around : 0, check);
 
   const fs::path path = request.file.empty() ? request.directory / report_name : request.file;
-  refuse_what_is_no_file(path);
   WrittenReport written{path.string(), 0, data.frames, left_out_text(data.plan, data.frames, data.channels)};
   const ordered_json json{{"title", short_name(request.directory)}, {"head", std::move(run.head)},
                           {"sensors", std::move(data.sensors)},     {"colours", colours_json()},

@@ -70,11 +70,12 @@ bool is_of_a_run(const std::string &name) {
   return std::regex_match(name, names);
 }
 
-// A run that has neither frames nor variants keeps nobody out.
-bool is_barely_begun(const fs::path &folder, const std::optional<RunFile> &found) {
+// Whether `run` may take the folder of another that is to be kept, as nothing of it would go: frames, or a
+// study's table.
+bool leaves_all(const fs::path &folder, const std::optional<RunFile> &found, const RunIdentity &run) {
   std::error_code ignored;
-  return found && !found->run.head.contains("study") && !fs::exists(folder / manifest_name, ignored) &&
-         recorded_frames(folder).empty();
+  return found && (run.head.contains("study") || !found->run.head.contains("study")) &&
+         !fs::exists(folder / manifest_name, ignored) && recorded_frames(folder).empty();
 }
 
 } // namespace
@@ -124,7 +125,7 @@ bool RunFolder::enter_alone(ByteLocks there, const FrameRange &frames, Earlier e
   const std::optional<RunFile> found =
       parsed_run_file(there.content(max_run_json_bytes), path() / run_file_name);
   const bool same_run = found && found->run == run_;
-  if (!same_run && earlier == Earlier::kept && !is_barely_begun(path(), found))
+  if (!same_run && earlier == Earlier::kept && !leaves_all(path(), found, run_))
     throw Error(ExitCode::input, fmt::format("{}: --resume: it holds another run: {}", path().string(),
                                              found ? difference_text(found->run, run_)
                                                    : fmt::format("its {} cannot be read", run_file_name)));

@@ -30,7 +30,8 @@ public:
   // earlier run of another kind goes, its records and its manifest, unless the earlier frames are to be kept.
   // `wait` is called while another process is about to begin or writes the manifest; what it throws comes
   // out. `strict`: a frame that has warnings is not whole. Throws Error: (input) where frames of
-  // another run are to be kept; (output) where others are at another run there, or nothing can be written.
+  // another run, or variants, are to be kept; (output) where others are at another run there, or nothing can
+  // be written.
   RunFolder(const std::filesystem::path &directory, RunIdentity run, const FrameRange &frames,
             Earlier earlier, std::function<void()> wait, bool strict = false);
   // Of a folder that has a run, to make its manifest again. Throws Error (input) where it has none.
