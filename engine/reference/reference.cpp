@@ -2,7 +2,7 @@
 
 #include "engine/reference/bounce/indirect_return.h"
 #include "engine/reference/bounce/path_tracer.h"
-#include "engine/reference/for_each_row.h"
+#include "engine/reference/for_each_block.h"
 #include "engine/reference/light/light_paths.h"
 #include "engine/reference/shadow/shadow_caster.h"
 #include "engine/reference/signal/channels.h"
@@ -78,16 +78,22 @@ public:
       frame_.sample_visibility.assign(frame_.sample_triangle_id.size() * every_diode_.words().size(), 0);
   }
 
-  std::uint32_t rows() const { return frame_.resolution.y; }
+  std::size_t blocks() const { return (pixel_count() + block_size - 1) / block_size; }
 
-  void compute_row(std::uint32_t row) {
-    for (std::uint32_t column = 0; column < frame_.resolution.x; ++column)
-      compute_pixel({column, row});
+  void compute_block(std::size_t block) {
+    const std::size_t end = std::min((block + 1) * block_size, pixel_count());
+    for (std::size_t i = block * block_size; i < end; ++i)
+      compute_pixel({i % frame_.resolution.x, i / frame_.resolution.x});
   }
 
   Frame take() { return std::move(frame_); }
 
 private:
+  // Pixels. A row of many samples and diodes takes seconds, for which an interruption would wait.
+  static constexpr std::size_t block_size = 16;
+
+  std::size_t pixel_count() const { return std::size_t{frame_.resolution.x} * frame_.resolution.y; }
+
   // The sensor's pixel at a place of the frame.
   glm::uvec2 sensor_pixel(const glm::uvec2 &place) const {
     if (pixels_.empty())
@@ -188,8 +194,8 @@ Frame simulate(const Scene &scene, const Sensor &sensor, const std::vector<Illum
     throw std::logic_error("reference: light bounces by Backscatter::lambert only");
   const auto start = Clock::now();
   FrameJob job(scene, sensor, illuminators, backscatter, options);
-  for_each_row(
-      job.rows(), [&](std::uint32_t row) { job.compute_row(row); }, progress);
+  for_each_block(
+      job.blocks(), [&](std::size_t block) { job.compute_block(block); }, progress);
   Frame frame = job.take();
   frame.frame_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return frame;

@@ -94,6 +94,12 @@ TEST_CASE("every pixel of records whose sums are stored keeps its bound") {
   Room at = room(1.0);
   at.sensor.waveform = {Waveform::Kind::harmonics, {1.0, 0.2, 0.1}};
   check_bounds("harmonics", at, "depth");
+}
+
+TEST_CASE("every pixel of records whose sums are stored keeps its bound, samples and frequencies", "[long]") {
+  print_heading_of_bounds("records' pixels");
+  Room at = room(1.0);
+  at.sensor.waveform = {Waveform::Kind::harmonics, {1.0, 0.2, 0.1}};
   at.sensor.samples = 2;
   check_bounds("harmonics, S = 2", at, "depth");
   at.sensor.samples = 1;
@@ -117,6 +123,10 @@ TEST_CASE("a bound does not depend on how large all harmonics are together") {
 TEST_CASE("the host and the device come to the same claim") {
   const Room at = room(1.0);
   check_the_same(measured(at, within(1e-4)), measured(at, within(1e-4), false));
+}
+
+TEST_CASE("the host and the device come to the same claim, also where float is too little", "[long]") {
+  const Room at = room(1.0);
   const double less_m = 0.8 * *measured(at, within(1e-5)).accuracy.claimed_m;
   const Measurement with_double = measured(at, within(less_m));
   CHECK(with_double.accuracy.unpromised == 0);

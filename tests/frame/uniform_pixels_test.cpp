@@ -231,7 +231,7 @@ TEST_CASE("frequencies from one sum", "[long]") {
   }
 }
 
-TEST_CASE("more frequencies than the uniform-pixel pass has room for") {
+TEST_CASE("more frequencies than the uniform-pixel pass has room for", "[long]") {
   Case of = in_corner("10 to 50 MHz", 1);
   of.sensor.modulation_hz = {10e6, 20e6, 30e6, 40e6, 50e6};
   check(of);
@@ -269,7 +269,7 @@ Case painted_shapes(std::uint32_t samples) {
 
 } // namespace
 
-TEST_CASE("painted surfaces and points") { check(painted_shapes(2)); }
+TEST_CASE("painted surfaces and points", "[long]") { check(painted_shapes(2)); }
 
 TEST_CASE("painted surfaces and points, one sample a pixel", "[long]") { check(painted_shapes(1)); }
 
@@ -288,7 +288,7 @@ TEST_CASE("a single diode, and diodes that are turned from what is seen", "[long
   }
 }
 
-TEST_CASE("beams end in view") {
+TEST_CASE("beams end in view", "[long]") {
   const Case of = at_rims_of_beams();
   check(of);
   // In float alone it could not be promised.

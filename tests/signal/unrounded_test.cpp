@@ -110,9 +110,9 @@ TEST_CASE("unrounded distances of all frames lie within a rounding", "[long]") {
 
 TEST_CASE(
     "unrounded distances are there whatever way a frame takes, and are gone where nobody asks for them") {
-  check_random_ways({3u, 41u});
+  check_random_ways({41u});
 }
 
 TEST_CASE("unrounded distances are there whatever way a frame takes, other ways", "[long]") {
-  check_random_ways({20u, 62u, 77u});
+  check_random_ways({3u, 20u, 62u, 77u});
 }

@@ -255,8 +255,8 @@ TEST_CASE("a tradeoff does not take scatter for an error") {
   const Workspace work;
   json setup = with_preset("opt8241_like");
   setup["sensors"][0]["resolution"] = {16, 12};
-  const Run done =
-      run_pmdsim({"tradeoff", work.write("setup.json", setup.dump()), "-o", work / "out", "--json"});
+  const Run done = run_pmdsim(
+      {"tradeoff", work.write("setup.json", setup.dump()), "-o", work / "out", "--samples", "2", "--json"});
   INFO(done.errors);
   REQUIRE(done.exit_code == 0);
   CHECK(done.errors.find("are left out") != std::string::npos);
