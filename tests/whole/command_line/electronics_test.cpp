@@ -251,12 +251,12 @@ TEST_CASE("binning after the ADC leaves the photon transfer of one reading") {
             Approx(point["variance_dn2"].get<double>()).epsilon(0.15));
 }
 
-TEST_CASE("a tradeoff does not take scatter for an error") {
+TEST_CASE("a tradeoff does not take scatter for an error", "[long]") {
   const Workspace work;
   json setup = with_preset("opt8241_like");
   setup["sensors"][0]["resolution"] = {16, 12};
-  const Run done = run_pmdsim(
-      {"tradeoff", work.write("setup.json", setup.dump()), "-o", work / "out", "--samples", "2", "--json"});
+  const Run done =
+      run_pmdsim({"tradeoff", work.write("setup.json", setup.dump()), "-o", work / "out", "--json"});
   INFO(done.errors);
   REQUIRE(done.exit_code == 0);
   CHECK(done.errors.find("are left out") != std::string::npos);

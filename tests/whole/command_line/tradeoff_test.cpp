@@ -72,7 +72,7 @@ TEST_CASE("tradeoff sweeps modes, precisions and samples, and leaves four whole 
     CHECK(std::filesystem::is_regular_file(output));
 }
 
-TEST_CASE("tradeoff prints its tables and where its files are") {
+TEST_CASE("tradeoff prints its tables and where its files are", "[long]") {
   const Workspace work;
   const Run run =
       run_pmdsim({"tradeoff", scene("analytic/on_axis_baseline.json"), "-o", work / "out", "--samples", "2"});
