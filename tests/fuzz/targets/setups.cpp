@@ -1,5 +1,6 @@
 // Valid but extreme setups, decoded from bytes: the device's frame in mode auto against the reference's,
-// within the error that was asked for, or refused.
+// within the error that was asked for, or refused. A setup's shaders take seconds to compile, so that each is
+// measured again with other numbers, which need the same ones.
 
 #include "tests/fuzz/target.h"
 
@@ -10,9 +11,12 @@
 #include "tests/support/simulator.h"
 #include "tests/whole/uncertain_pixels.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
+#include <random>
+#include <string>
 
 using namespace pmdsim;
 using test::RandomSetup;
@@ -20,6 +24,12 @@ using test::RandomSetup;
 namespace {
 
 constexpr double half_turn_rad = std::numbers::pi;
+#ifdef PMDSIM_FUZZ
+constexpr unsigned turns = 15;
+#else
+constexpr unsigned turns = 1; // every day
+#endif
+constexpr std::size_t turn_size = 1024; // bytes
 
 glm::dvec3 any_vector(fuzz::Decoder &bytes, double reach) {
   const double x = bytes.uniform(-reach, reach), y = bytes.uniform(-reach, reach);
@@ -141,6 +151,34 @@ RandomSetup any_setup(fuzz::Decoder &bytes) {
   return setup;
 }
 
+// Bytes for one more turn's numbers, which follow from the input.
+std::string turn_bytes(const std::uint8_t *data, std::size_t size, unsigned turn) {
+  std::seed_seq seed(data, data + size);
+  std::mt19937 random(seed);
+  random.discard(turn_size * turn);
+  std::string bytes(turn_size, '\0');
+  for (char &byte : bytes)
+    byte = static_cast<char>(random());
+  return bytes;
+}
+
+// Other places, frequencies, intensities and another error; what there is stays.
+void vary(RandomSetup &setup, fuzz::Decoder &bytes) {
+  const glm::dvec3 lens_m = setup.sensor.world_from_camera.translation_m;
+  const double nearness = bytes.log_uniform(0.2, 5.0), shake = bytes.log_uniform(1e-6, 0.1);
+  for (glm::dvec3 &position_m : setup.scene.positions_m)
+    position_m = lens_m + nearness * (glm::dvec3(1.0) + any_vector(bytes, shake)) * (position_m - lens_m);
+  const double spread = bytes.log_uniform(0.1, 10.0), strength = bytes.log_uniform(0.1, 10.0);
+  for (Illuminator &light : setup.illuminators)
+    for (Diode &diode : light.diodes) {
+      diode.position_m *= spread;
+      diode.intensity_w_sr *= strength * bytes.uniform(0.9, 1.1);
+    }
+  for (double &modulation_hz : setup.sensor.modulation_hz)
+    modulation_hz = std::clamp(modulation_hz * bytes.log_uniform(0.3, 3.0), 1e3, 1e10);
+  setup.max_error_m = bytes.log_uniform(1e-6, 1e-1);
+}
+
 Accuracy within_budget(const RandomSetup &setup) {
   return {.mode = Mode::automatic, .precision = {}, .max_error_m = setup.max_error_m, .strict = true};
 }
@@ -167,15 +205,7 @@ void compare_with_reference(const RandomSetup &setup, const Measurement &measure
           measured.accuracy.found_m.value_or(0.0), setup);
 }
 
-} // namespace
-
-FUZZ_TARGET(setups) {
-  static Simulator simulator = test::make_simulator(
-      {.device = {}, .keep_sample_ids = true, .keep_visibility = true, .loop = DiodeLoop::looped});
-  fuzz::Decoder bytes(data, size);
-  const RandomSetup setup = any_setup(bytes);
-  if (lens_fault(setup.sensor))
-    return 0; // setups with such lenses are refused when they are read
+void check(Simulator &simulator, const RandomSetup &setup) {
   Measurement measured;
   if (fuzz::accepts(
           [&] {
@@ -185,5 +215,24 @@ FUZZ_TARGET(setups) {
           },
           {ExitCode::accuracy, ExitCode::input}))
     compare_with_reference(setup, measured);
+}
+
+} // namespace
+
+FUZZ_TARGET(setups) {
+  static Simulator simulator = test::make_simulator(
+      {.device = {}, .keep_sample_ids = true, .keep_visibility = true, .loop = DiodeLoop::looped});
+  fuzz::Decoder bytes(data, size);
+  const RandomSetup setup = any_setup(bytes);
+  if (lens_fault(setup.sensor))
+    return 0; // setups with such lenses are refused when they are read
+  check(simulator, setup);
+  for (unsigned turn = 0; turn < turns; ++turn) {
+    const std::string numbers = turn_bytes(data, size, turn);
+    fuzz::Decoder of_turn(reinterpret_cast<const std::uint8_t *>(numbers.data()), numbers.size());
+    RandomSetup varied = setup;
+    vary(varied, of_turn);
+    check(simulator, varied);
+  }
   return 0;
 }
