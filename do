@@ -267,7 +267,7 @@ configure_fuzzers() {
 # none.
 options_of_fuzz_target() {
   case $1 in
-  setups) echo -rss_limit_mb=6144 -timeout=300 ;;
+  setups) echo -rss_limit_mb=6144 -timeout=300 -report_slow_units=300 ;;
   library) echo -rss_limit_mb=2048 -timeout=10 ;;
   hdf5 | array) echo -rss_limit_mb=1024 -malloc_limit_mb=1000000 -timeout=5 ;;
   *) echo -rss_limit_mb=1024 -timeout=5 ;;
