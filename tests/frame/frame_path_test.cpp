@@ -101,7 +101,7 @@ void check_forms(const std::vector<Form> &some) {
 
 } // namespace
 
-TEST_CASE("a form of the path that is forbidden is not taken and changes nothing else, some") {
+TEST_CASE("some forms of the path that are forbidden are not taken and change nothing else") {
   check_forms(every_third(forms));
 }
 

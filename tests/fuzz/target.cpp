@@ -1,5 +1,6 @@
 #include "tests/fuzz/target.h"
 
+#include "host/hdf5/hdf5.h"
 #include "tests/support/temporary_folder.h"
 
 #include <cstdio>
@@ -8,6 +9,9 @@
 
 namespace pmdsim::fuzz {
 namespace {
+
+// As in the program.
+[[maybe_unused]] const bool leaves_hdf5_open = (leave_hdf5_open_at_exit(), true);
 
 // Why a text may not be shown; nullptr where it may.
 const char *fault_of(std::string_view text) {

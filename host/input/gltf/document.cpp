@@ -88,8 +88,10 @@ void refuse_other_versions(const json &document, const Place &root) {
 
 const json &list_at(const json &object, const char *key) {
   static const json empty_array = json::array();
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  return object.is_object() && found != object.end() && found->is_array() ? *found : empty_array;
+  if (!object.is_object())
+    return empty_array;
+  const auto found = object.find(key);
+  return found != object.end() && found->is_array() ? *found : empty_array;
 }
 
 GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &named_at) {

@@ -345,9 +345,12 @@ bool DocumentSchema::allows(const json &document) const {
 }
 
 void DocumentSchema::check(const json &document, const Place &root) const {
-  if (allows(document)) // which ends with the first failure, while all are told of with their ways
-    return;
-  valijson::ValidationResults failures;
+  if (!allows(document)) // which ends with the first failure
+    refuse(document, root);
+}
+
+void DocumentSchema::refuse(const json &document, const Place &root) const {
+  valijson::ValidationResults failures; // all, with their ways
   valijson::Validator().validate(*parsed_, valijson::adapters::NlohmannJsonAdapter(document), &failures);
   throw explained(deepest_failure(failures, document, json_, root), json_);
 }

@@ -27,6 +27,8 @@ public:
   bool allows(const nlohmann::json &document) const;
   // A wrong key or value is thrown as Error (input) with its place in the document, which is at `root`.
   void check(const nlohmann::json &document, const Place &root) const;
+  // The same, of a document that is known not to be allowed.
+  [[noreturn]] void refuse(const nlohmann::json &document, const Place &root) const;
 
 private:
   nlohmann::json json_;

@@ -64,7 +64,7 @@ void check_setup(const DocumentSchema &schema, const json &document, std::size_t
   if (schema.allows(document))
     return;
   require_memory(values * failure_bytes, root, "looking for what is wrong");
-  schema.check(document, root);
+  schema.refuse(document, root);
 }
 
 ordered_json checked_setup(const SetupDocument &source, bool with_scene = true) {

@@ -2,17 +2,9 @@
 
 #include "tests/fuzz/target.h"
 
-#include "host/hdf5/hdf5.h"
 #include "host/input/frame/frame_bytes.h"
 
 using namespace pmdsim;
-
-namespace {
-
-// As in the program.
-[[maybe_unused]] const bool stays_open = (leave_hdf5_open_at_exit(), true);
-
-} // namespace
 
 FUZZ_TARGET(hdf5) {
   static const std::filesystem::path file = "frame.h5";

@@ -7,6 +7,7 @@
 #include "engine/lens/lens.h"
 #include "tests/comparison/comparison.h"
 #include "tests/fuzz/decoder.h"
+#include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
 #include "tests/whole/uncertain_pixels.h"
@@ -14,9 +15,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <numbers>
-#include <random>
-#include <string>
+#include <string_view>
 
 using namespace pmdsim;
 using test::RandomSetup;
@@ -29,7 +30,6 @@ constexpr unsigned turns = 15;
 #else
 constexpr unsigned turns = 1; // every day
 #endif
-constexpr std::size_t turn_size = 1024; // bytes
 
 glm::dvec3 any_vector(fuzz::Decoder &bytes, double reach) {
   const double x = bytes.uniform(-reach, reach), y = bytes.uniform(-reach, reach);
@@ -151,32 +151,22 @@ RandomSetup any_setup(fuzz::Decoder &bytes) {
   return setup;
 }
 
-// Bytes for one more turn's numbers, which follow from the input.
-std::string turn_bytes(const std::uint8_t *data, std::size_t size, unsigned turn) {
-  std::seed_seq seed(data, data + size);
-  std::mt19937 random(seed);
-  random.discard(turn_size * turn);
-  std::string bytes(turn_size, '\0');
-  for (char &byte : bytes)
-    byte = static_cast<char>(random());
-  return bytes;
-}
-
 // Other places, frequencies, intensities and another error; what there is stays.
-void vary(RandomSetup &setup, fuzz::Decoder &bytes) {
+void vary(RandomSetup &setup, test::Random &random) {
   const glm::dvec3 lens_m = setup.sensor.world_from_camera.translation_m;
-  const double nearness = bytes.log_uniform(0.2, 5.0), shake = bytes.log_uniform(1e-6, 0.1);
+  const double nearness = random.log_uniform(0.2, 5.0), shake = random.log_uniform(1e-6, 0.1);
   for (glm::dvec3 &position_m : setup.scene.positions_m)
-    position_m = lens_m + nearness * (glm::dvec3(1.0) + any_vector(bytes, shake)) * (position_m - lens_m);
-  const double spread = bytes.log_uniform(0.1, 10.0), strength = bytes.log_uniform(0.1, 10.0);
+    position_m = lens_m + nearness * random.in_box(glm::dvec3(1.0 - shake), glm::dvec3(1.0 + shake)) *
+                              (position_m - lens_m);
+  const double spread = random.log_uniform(0.1, 10.0), strength = random.log_uniform(0.1, 10.0);
   for (Illuminator &light : setup.illuminators)
     for (Diode &diode : light.diodes) {
       diode.position_m *= spread;
-      diode.intensity_w_sr *= strength * bytes.uniform(0.9, 1.1);
+      diode.intensity_w_sr *= strength * random.uniform(0.9, 1.1);
     }
   for (double &modulation_hz : setup.sensor.modulation_hz)
-    modulation_hz = std::clamp(modulation_hz * bytes.log_uniform(0.3, 3.0), 1e3, 1e10);
-  setup.max_error_m = bytes.log_uniform(1e-6, 1e-1);
+    modulation_hz = std::clamp(modulation_hz * random.log_uniform(0.3, 3.0), 1e3, 1e10);
+  setup.max_error_m = random.log_uniform(1e-6, 1e-1);
 }
 
 Accuracy within_budget(const RandomSetup &setup) {
@@ -227,11 +217,10 @@ FUZZ_TARGET(setups) {
   if (lens_fault(setup.sensor))
     return 0; // setups with such lenses are refused when they are read
   check(simulator, setup);
+  test::Random random(static_cast<std::uint32_t>(std::hash<std::string_view>()(fuzz::text_of(data, size))));
   for (unsigned turn = 0; turn < turns; ++turn) {
-    const std::string numbers = turn_bytes(data, size, turn);
-    fuzz::Decoder of_turn(reinterpret_cast<const std::uint8_t *>(numbers.data()), numbers.size());
     RandomSetup varied = setup;
-    vary(varied, of_turn);
+    vary(varied, random);
     check(simulator, varied);
   }
   return 0;
