@@ -1,5 +1,5 @@
-# What tests of an instrumented build run with: sanitizer_environment, empty in other builds, and sanitizer_preloaded, the
-# runtimes that a program needs, as Python, that is not instrumented and loads a library that is.
+# What tests run with: sanitizer_environment, and in an instrumented build sanitizer_preloaded, the runtimes that a
+# program needs, as Python, that is not instrumented and loads a library that is. guarded_memory is a library, or empty.
 set(sanitizer_environment)
 set(sanitizer_preloaded)
 if(PMDSIM_SANITIZE STREQUAL "address")
@@ -18,6 +18,12 @@ elseif(PMDSIM_SANITIZE STREQUAL "thread")
        TSAN_OPTIONS=allocator_may_return_null=1:ignore_noninstrumented_modules=1:second_deadlock_stack=1:print_suppressions=0:suppressions=${CMAKE_CURRENT_LIST_DIR}/races.supp
        LD_LIBRARY_PATH=${PROJECT_BINARY_DIR}/tbb)
   set(runtimes tsan stdc++)
+else()
+  # What sanitizers do not see, as lavapipe's shaders are not instrumented.
+  add_library(guarded_memory MODULE ${CMAKE_CURRENT_LIST_DIR}/guarded_memory.cpp)
+  target_link_libraries(guarded_memory PRIVATE pmdsim_flags ${CMAKE_DL_LIBS})
+  set(guarded_memory $<TARGET_FILE:guarded_memory>)
+  list(APPEND sanitizer_environment LD_PRELOAD=${guarded_memory})
 endif()
 foreach(runtime IN LISTS runtimes)
   execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=lib${runtime}.so OUTPUT_VARIABLE file

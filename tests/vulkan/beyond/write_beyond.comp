@@ -1,5 +1,5 @@
 #version 460
-// Writes a word of a buffer, wherever that is: what validation of shaders shall find.
+// Writes a word of a buffer, wherever that is: what the checks of shaders shall find.
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 

@@ -1,11 +1,11 @@
-// Lets a shader write the word with the index that is its argument, of a buffer of sixteen, under
-// GPU-assisted validation. What that finds ends the process (engine/vulkan/instance.h), so that this is a
-// program of its own.
+// Lets a shader write the word with the index that is its argument, of a buffer of sixteen, under the
+// validation that PMDSIM_VALIDATE asks for. A program of its own, as it ends where that is found.
 
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/compute_pipeline.h"
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <span>
 #include <string>
@@ -35,7 +35,7 @@ void write_word(const vulkan::Device &device, std::uint32_t index) {
 
 int main(int, char **argv) {
   try {
-    const vulkan::Instance instance(Validation::calls_and_shaders);
+    const vulkan::Instance instance(validation_of(std::getenv("PMDSIM_VALIDATE")));
     for (auto &physical : instance.devices())
       if (vulkan::what_is_lacking(physical).empty())
         write_word(vulkan::Device(instance, physical), static_cast<std::uint32_t>(std::stoul(argv[1])));
