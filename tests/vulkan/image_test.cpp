@@ -1,6 +1,7 @@
 // Images that lie on a buffer.
 
 #include "engine/vulkan/image.h"
+#include "tests/vulkan/lavapipe.h"
 
 #include <catch2/catch.hpp>
 
@@ -24,11 +25,7 @@ TEST_CASE(
   const Instance instance(pmdsim::Validation::none);
   int tested = 0;
   for (auto &physical : instance.devices()) {
-    const bool is_lavapipe =
-        physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
-            .get<vk::PhysicalDeviceDriverProperties>()
-            .driverID == vk::DriverId::eMesaLlvmpipe;
-    if (!is_lavapipe)
+    if (!pmdsim::test::is_lavapipe(physical))
       continue;
     ++tested;
     const Device device(instance, physical);
