@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <locale>
 #include <optional>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -331,10 +332,20 @@ ordered_json filled(const ordered_json &root, const ordered_json &schema_or_anyo
   return result;
 }
 
+// The C++ library keeps a table of characters in their narrow form, which std::regex fills as patterns are
+// checked, in all threads at once and without a lock (GCC bug 77704). One that is filled beforehand is only
+// read.
+void fill_narrow_characters() {
+  const auto &characters = std::use_facet<std::ctype<char>>(std::locale());
+  for (int character = 0; character < 256; ++character)
+    characters.narrow(static_cast<char>(character), '\0');
+}
+
 } // namespace
 
 DocumentSchema::DocumentSchema(json schema)
     : json_(std::move(schema)), parsed_(std::make_unique<valijson::Schema>()) {
+  fill_narrow_characters();
   valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(json_), *parsed_);
 }
 
