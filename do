@@ -36,7 +36,7 @@ usage: ./do COMMAND
   run ARGS   run pmdsim with ARGS, e.g. ./do run deform scenes/paper_ring.json
   test       build and run what every change must pass, some minutes; prints the accuracy tables
              --smoke  only a few cases of each kind, within a minute
-             --long   all tests there are, and lint --long
+             --long   all tests there are, and lint --long, for hours
   bench      measure the throughput of the paper's ring and how time grows; ./do bench SETUP for a setup alone
   build      install what is missing and build
   package    build and make a Debian package of program, library and Python module: build/pmdsim_VERSION_ARCHITECTURE.deb
