@@ -231,11 +231,14 @@ lint_long() {
   tidy dev ''
 }
 
-# Clang with libFuzzer, the newest of Debian's that is here.
+# Clang with libFuzzer, from version 19 on: older ones do not know the processor's features by the names that the engine asks
+# for.
 fuzzing_clang() {
-  local clang
-  for clang in clang++-19 clang++-16 clang++-15 clang++-14 clang++; do
-    if command -v "$clang" >/dev/null && ls "$("$clang" -print-resource-dir)"/lib/*/*fuzzer-* >/dev/null 2>&1; then
+  local clang version
+  for clang in clang++-19 clang++; do
+    command -v "$clang" >/dev/null || continue
+    version=$("$clang" -dumpversion)
+    if ((${version%%.*} >= 19)) && ls "$("$clang" -print-resource-dir)"/lib/*/*fuzzer-* >/dev/null 2>&1; then
       echo "$clang"
       return
     fi
@@ -247,9 +250,7 @@ install_fuzzing_clang() {
   if fuzzing_clang >/dev/null; then return; fi
   install_if_possible clang-19 libclang-rt-19-dev
   if fuzzing_clang >/dev/null; then return; fi
-  install_if_possible clang-14 libclang-rt-14-dev
-  if fuzzing_clang >/dev/null; then return; fi
-  say "fuzz needs clang++ with libFuzzer"
+  say "fuzz needs clang++ with libFuzzer, from version 19 on"
   exit 1
 }
 
