@@ -75,6 +75,7 @@ void VariantTable::add(const Variant &variant, const ordered_json &of_sensor) {
   row.update(no_changes_);
   for (const auto &[path, value] : variant.changes.items())
     row[path] = value.is_structured() ? ordered_json(value.dump()) : ordered_json(value);
+  row["variant"] = variant.name; // a change of that name is none of the setup's
   for (const char *key : {"sensor", "frame", "time_s"})
     row[key] = of.at(key);
   if (of_sensor.contains("told"))

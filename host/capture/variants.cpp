@@ -29,7 +29,7 @@ bool has_one_named(const json &setup, const char *list, const std::string &name)
 void refuse_doubled_names(const std::vector<SetupDocument> &setups) {
   std::set<std::filesystem::path> names;
   for (const SetupDocument &setup : setups)
-    if (!names.insert(setup.file.stem()).second)
+    if (!names.insert(frames_folder_of(setup.file)).second)
       throw Error(ExitCode::usage,
                   fmt::format("{}: expected setups of different names, as they name the folders of "
                               "their frames",
@@ -56,6 +56,16 @@ json json_of_line(std::string_view line, std::size_t lines_before, const std::fi
 }
 
 } // namespace
+
+std::string frames_folder_of(const std::filesystem::path &setup) {
+  std::string name = setup.stem().string();
+  if (setup.has_extension() && (name == "." || name == ".."))
+    throw Error(ExitCode::usage,
+                fmt::format("{}: expected a setup with a name before its ending, as it names "
+                            "the folder of its frames",
+                            setup.string()));
+  return name;
+}
 
 json changes_for(const PosesFromFile &poses, const SetupDocument &document) {
   read_front_of_regular_file(poses.file, 0, Place{poses.file}); // an error has the name as it was given
@@ -108,7 +118,7 @@ std::vector<Variant> variants_of(const std::vector<SetupDocument> &setups,
   for (const SetupDocument &setup : setups)
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::string number = variants ? fmt::format("{:04}", i) : "";
-      const std::string stem = setups.size() > 1 ? setup.file.stem().string() : "";
+      const std::string stem = setups.size() > 1 ? frames_folder_of(setup.file) : "";
       const std::string name = variants ? (std::filesystem::path(stem) / number).string() : stem;
       Variant variant{name, setup, lines[i].changes};
       try {

@@ -24,6 +24,10 @@ struct PosesFromFile {
   std::filesystem::path file;
 };
 
+// The name of the folder of the setup's frames: the file's, without its ending. Throws Error (usage) where
+// that leads elsewhere: "...json".
+std::string frames_folder_of(const std::filesystem::path &setup);
+
 // The changes that make a document's sensor, illuminator or node move along them. Throws Error (input) where
 // there is no such file.
 nlohmann::json changes_for(const PosesFromFile &poses, const SetupDocument &document);

@@ -1,5 +1,6 @@
 #include "host/command_line/options.h"
 
+#include "host/capture/variants.h"
 #include "host/command_line/command_examples.h"
 #include "host/command_line/command_line.h"
 #include "host/command_line/usage.h"
@@ -188,7 +189,7 @@ Options checked(Written written, const std::string &command) {
   if (capture.output_directory.empty() && command != "merge" && command != "report")
     capture.output_directory = options.setups.size() > 1
                                    ? std::filesystem::path("out") / command
-                                   : std::filesystem::path("out") / capture.setup.stem() / command;
+                                   : std::filesystem::path("out") / frames_folder_of(capture.setup) / command;
   if (written.formats.empty() && default_formats().contains(command))
     written.formats = default_formats().at(command);
   if (!written.channels.empty())

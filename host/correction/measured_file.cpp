@@ -50,9 +50,15 @@ std::filesystem::path file_in(const ImageRequest &request, const Sensor &sensor,
   std::vector<std::string> names{stem + ".h5", stem + ".exr", stem + ".npz"};
   for (const std::string &name : names_of_image(request, sensor))
     names.push_back(fmt::format("{}.{}.npy", stem, name));
-  for (const std::string &name : names)
-    if (std::filesystem::exists(request.file / name))
-      return request.file / name;
+  for (const std::string &name : names) {
+    const std::filesystem::path file = request.file / name;
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::symlink_status(file, ignored);
+    if (std::filesystem::is_symlink(status)) // to whatever it leads
+      throw input_error(Place{file}, "is a link, expected a file");
+    if (std::filesystem::exists(status))
+      return file;
+  }
   throw input_error(Place{request.file},
                     fmt::format("expected one of {} in the directory", fmt::join(names, ", ")));
 }

@@ -2,7 +2,6 @@
 
 #include "host/input/file/content_hash.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace pmdsim {
@@ -25,7 +24,7 @@ void FilesRead::note(const std::filesystem::path &file, std::string_view bytes) 
   if (path.starts_with(noting->folder_))
     path.erase(0, noting->folder_.size());
   FileRead read{std::move(path), bytes.size(), content_hash(bytes)};
-  if (std::ranges::find(noting->files_, read) == noting->files_.end())
+  if (noting->known_.insert(read).second)
     noting->files_.push_back(std::move(read));
 }
 

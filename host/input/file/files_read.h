@@ -1,8 +1,10 @@
 #pragma once
 // Which files went into what was loaded, and what they held.
 
+#include <compare>
 #include <cstddef>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +16,7 @@ struct FileRead {
   std::size_t bytes = 0;
   std::string hash; // content_hash() of these bytes
 
-  bool operator==(const FileRead &) const = default;
+  auto operator<=>(const FileRead &) const = default;
 };
 
 // As long as it lives it notes what input_file.h reads on this thread. A later one takes over until it dies.
@@ -35,6 +37,7 @@ public:
 private:
   std::string folder_; // empty, or with a slash at its end
   std::vector<FileRead> files_;
+  std::set<FileRead> known_; // the same
   FilesRead *before_;
 };
 

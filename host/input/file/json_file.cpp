@@ -154,7 +154,8 @@ void check_json(std::string_view text, const std::filesystem::path &file, Commen
   json::sax_parse(text.begin(), text.end(), &guard, json::input_format_t::json, true,
                   comments == Comments::allowed);
   constexpr std::size_t value_bytes = 64; // about, in a list or an object
-  require_memory(guard.values() * value_bytes, Place{file},
+  // A text is in the parser and in the document, whose longest parts are its own.
+  require_memory(guard.values() * value_bytes + 2 * text.size(), Place{file},
                  fmt::format("a document of {} values", guard.values()));
 }
 

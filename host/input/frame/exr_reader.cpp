@@ -94,7 +94,9 @@ private:
     require(compression <= EXR_COMPRESSION_ZIP, "no compression or RLE, ZIPS or ZIP in the EXR file");
     check(exr_get_data_window(context_.get(), only_part, &window));
     check(exr_get_channels(context_.get(), only_part, &channels));
-    require(channels && channels->num_channels > 0, "channels in the EXR file");
+    constexpr int most_channels = 4096;
+    require(channels && channels->num_channels > 0 && channels->num_channels <= most_channels,
+            "1 to 4096 channels in the EXR file");
     first_row_ = window.min.y;
     ReadFrame read{checked_resolution(
         frame_, size(window.min.x, window.max.x), size(window.min.y, window.max.y),

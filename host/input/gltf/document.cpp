@@ -69,6 +69,13 @@ Text split_glb(std::string_view bytes, const Place &whole_file) {
   return {first.bytes, second.type == bin_chunk ? second.bytes : std::string_view{}};
 }
 
+// Of `bytes` what `chunk` shows of them, in the same memory.
+void keep_only(std::string_view chunk, std::string &bytes) {
+  const auto begin = chunk.empty() ? 0 : static_cast<std::size_t>(chunk.data() - bytes.data());
+  bytes.resize(begin + chunk.size());
+  bytes.erase(0, begin);
+}
+
 void refuse_other_kinds(std::string_view bytes, const Place &whole_file) {
   constexpr std::string_view expected = "expected glTF 2.0 (.gltf or .glb)";
   const std::string kind = kind_of_file(whole_file.file, bytes);
@@ -95,8 +102,7 @@ const json &list_at(const json &object, const char *key) {
 }
 
 GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &named_at) {
-  const auto bytes =
-      std::make_shared<const std::string>(read_regular_file(file, max_gltf_file_bytes, named_at));
+  const auto bytes = std::make_shared<std::string>(read_regular_file(file, max_gltf_file_bytes, named_at));
   const bool is_glb = std::string_view(*bytes).starts_with(glb_magic);
   Place root{file};
   if (!is_glb)
@@ -104,9 +110,13 @@ GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &
   const Text text = is_glb ? split_glb(*bytes, root) : Text{*bytes, {}};
   static const DocumentSchema schema(json::parse(gltf_schema_text));
 
-  GltfDocument document{parse_json(text.json, file, Comments::refused), std::string(text.binary_chunk)};
-  if (!is_glb) // whose lines nobody sees
+  GltfDocument document{parse_json(text.json, file, Comments::refused), {}};
+  if (is_glb) { // whose lines nobody sees
+    keep_only(text.binary_chunk, *bytes);
+    document.binary_chunk = std::move(*bytes);
+  } else {
     root.source = std::make_shared<const JsonSource>(JsonSource{bytes});
+  }
   schema.check(document.json, root);
   refuse_other_versions(document.json, root);
   refuse_other_extensions(document.json, root);

@@ -23,14 +23,25 @@ using nlohmann::json;
 
 namespace {
 
+// Throughout; depths are limited.
+void erase_additions(json &value) {
+  if (value.is_object())
+    for (const char *key : {"extras", "extensions"})
+      value.erase(key);
+  if (value.is_structured())
+    for (json &each : value)
+      erase_additions(each);
+}
+
 // tinygltf opens whatever a file names and decodes every image, so it is given only the parts that name no
-// file.
-std::string without_files(const json &document) {
+// file. What others have added takes many times its text there, and is read from the document itself.
+std::string core_of(const json &document) {
   json kept = json::object();
   for (const char *key : {"asset", "extensionsUsed", "extensionsRequired", "scene", "scenes", "nodes",
-                          "meshes", "materials", "accessors", "bufferViews", "animations", "skins"})
+                          "meshes", "accessors", "bufferViews", "animations", "skins"})
     if (document.contains(key))
       kept[key] = document.at(key);
+  erase_additions(kept);
   return kept.dump();
 }
 
@@ -45,20 +56,20 @@ void replace_views(std::vector<DecodedView> &decoded, tinygltf::Model &model) {
 
 // tinygltf's structs are much larger than their text may be.
 void require_room_for_model(const json &document, const std::filesystem::path &file) {
-  constexpr std::size_t material_bytes = 4096, other_bytes = 1024; // about
-  std::size_t bytes = list_at(document, "materials").size() * material_bytes;
+  constexpr std::size_t struct_bytes = 1024; // about
+  std::size_t bytes = 0;
   for (const char *key : {"nodes", "meshes", "accessors", "bufferViews", "animations", "skins"})
-    bytes += list_at(document, key).size() * other_bytes;
+    bytes += list_at(document, key).size() * struct_bytes;
   for (const json &mesh : list_at(document, "meshes"))
-    bytes += list_at(mesh, "primitives").size() * other_bytes;
+    bytes += list_at(mesh, "primitives").size() * struct_bytes;
   for (const json &animation : list_at(document, "animations"))
-    bytes += (list_at(animation, "channels").size() + list_at(animation, "samplers").size()) * other_bytes;
+    bytes += (list_at(animation, "channels").size() + list_at(animation, "samplers").size()) * struct_bytes;
   require_memory(bytes, Place{file}, "a model of its lists");
 }
 
 tinygltf::Model model_of(const GltfDocument &document, const std::filesystem::path &file) {
   require_room_for_model(document.json, file);
-  const std::string text = without_files(document.json);
+  const std::string text = core_of(document.json);
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks({nullptr, nullptr, nullptr, nullptr, nullptr});
   tinygltf::Model model;
@@ -125,7 +136,8 @@ std::string mesh_name(const tinygltf::Model &model, const tinygltf::Node &node) 
 // `placement_of` gives that of each of the mesh's primitives.
 template <class PlacementOf>
 void append_object(const tinygltf::Model &model, const tinygltf::Node &node, const std::string &name,
-                   PlacementOf placement_of, const Place &root, Surfaces &surfaces, Scene &scene) {
+                   PlacementOf placement_of, const Place &root, Surfaces &surfaces, std::size_t &shapes,
+                   Scene &scene) {
   const auto object = static_cast<std::uint32_t>(scene.objects.size());
   scene.objects.push_back(name);
   const auto mesh = static_cast<std::size_t>(node.mesh);
@@ -133,7 +145,7 @@ void append_object(const tinygltf::Model &model, const tinygltf::Node &node, con
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     const UsedMaterial &used = surfaces[primitives[i]];
     append_primitive(model, primitives[i], placement_of(i), used.material, used.surface, object,
-                     root / "meshes" / mesh / "primitives" / i, scene);
+                     root / "meshes" / mesh / "primitives" / i, shapes, scene);
   }
 }
 
@@ -217,6 +229,7 @@ GltfScene GltfFile::at(double time_s, const std::vector<PlacedNode> &placed) con
   GltfScene result{file_, {}, {}};
   const std::vector<std::size_t> naming = naming_nodes(*model_, nodes);
   Surfaces surfaces(*materials_, result.scene);
+  std::size_t shapes = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const tinygltf::Node &node = model_->nodes[nodes[i].index];
     const auto placement_of = [&](std::size_t primitive) {
@@ -229,7 +242,7 @@ GltfScene GltfFile::at(double time_s, const std::vector<PlacedNode> &placed) con
           {node.name, world_from[i], mesh_name(*model_, node), node.camera >= 0, camera_of(node.camera)});
     if (node.mesh >= 0)
       append_object(*model_, node, object_name(*model_, nodes[naming[i]]), placement_of, root, surfaces,
-                    result.scene);
+                    shapes, result.scene);
   }
   return result;
 }

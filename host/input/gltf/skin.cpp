@@ -56,13 +56,20 @@ void normalise(SkinWeights &result, std::size_t first, const Place &place) {
     result.weights[i].weight /= sum;
 }
 
-// `bound` counts vertices so far, times their sets.
-SkinWeights read_weights(const GltfPrimitive &primitive, std::size_t &bound) {
+// What skins have bound so far.
+struct Bound {
+  std::size_t vertices = 0; // times their sets, each mesh once
+  std::size_t weights = 0;  // of each node that places a mesh
+};
+
+constexpr std::size_t max_placed_weights = std::size_t{1} << 28;
+
+SkinWeights read_weights(const GltfPrimitive &primitive, Bound &bound) {
   const Place root{primitive.place.file};
   const std::vector<WeightSet> sets = weight_sets(primitive);
   for (const WeightSet &set : sets)
-    bound += primitive.model.accessors[set.joints].count;
-  if (bound > max_scene_vertices)
+    bound.vertices += primitive.model.accessors[set.joints].count;
+  if (bound.vertices > max_scene_vertices)
     throw input_error(primitive.place, fmt::format("skins bind more than {} vertices", max_scene_vertices));
   std::vector<std::vector<glm::dvec4>> joints, weights;
   for (const WeightSet &set : sets) {
@@ -85,8 +92,8 @@ SkinWeights read_weights(const GltfPrimitive &primitive, std::size_t &bound) {
 }
 
 // Reads what each primitive of a skinned node's mesh says, once.
-void read_mesh(const tinygltf::Model &model, const tinygltf::Node &node, const Place &root,
-               std::size_t &bound, Skins &skins) {
+void read_mesh(const tinygltf::Model &model, const tinygltf::Node &node, const Place &root, Bound &bound,
+               Skins &skins) {
   const auto mesh = static_cast<std::size_t>(node.mesh);
   const std::size_t joints = skins.joints.at(node.skin).size();
   const std::vector<tinygltf::Primitive> &primitives = model.meshes[mesh].primitives;
@@ -95,6 +102,10 @@ void read_mesh(const tinygltf::Model &model, const tinygltf::Node &node, const P
     const auto [known, is_new] = skins.weights.try_emplace({node.mesh, i});
     if (is_new)
       known->second = read_weights(primitive, bound);
+    bound.weights += known->second.weights.size();
+    if (bound.weights > max_placed_weights)
+      throw input_error(primitive.place,
+                        fmt::format("nodes place more than {} weights of skins", max_placed_weights));
     if (known->second.joint_count > joints)
       throw input_error(primitive.place / "attributes",
                         fmt::format("refers to joint {}, expected one below {}, as skin {} has",
@@ -107,7 +118,7 @@ void read_mesh(const tinygltf::Model &model, const tinygltf::Node &node, const P
 Skins read_skins(const tinygltf::Model &model, const std::vector<SceneNode> &nodes, const Place &root) {
   const Places places = places_of_nodes(model, nodes);
   Skins skins;
-  std::size_t bound = 0;
+  Bound bound;
   for (const SceneNode &scene_node : nodes) {
     const tinygltf::Node &node = model.nodes[scene_node.index];
     if (node.skin < 0)

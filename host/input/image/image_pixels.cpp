@@ -98,14 +98,14 @@ private:
 };
 
 // Throws Error (input), and (out_of_memory) where there is no room for them, at `place`.
-void check_image_size(const glm::uvec2 &size, std::size_t component_bytes, std::size_t max_pixels,
+void check_image_size(const glm::uvec2 &size, std::size_t pixel_bytes, std::size_t max_pixels,
                       const Place &place) {
   const std::string found = fmt::format("found an image of {} x {}", size.x, size.y);
   if (size.x > max_image_side || size.y > max_image_side)
     throw input_error(place, fmt::format("expected at most {} pixels a side, {}", max_image_side, found));
   if (std::size_t{size.x} * size.y > max_pixels)
     throw input_error(place, fmt::format("expected at most {} further pixels, {}", max_pixels, found));
-  require_memory(std::size_t{size.x} * size.y * 4 * component_bytes, place,
+  require_memory(std::size_t{size.x} * size.y * pixel_bytes, place,
                  fmt::format("an image of {} x {}", size.x, size.y));
 }
 
@@ -118,7 +118,7 @@ ImagePixels decoded_png(std::span<const unsigned char> bytes, std::size_t max_pi
   PngReader reader(bytes);
   if (!reader.read_header())
     throw broken(reader, place);
-  check_image_size(reader.size(), reader.component_bytes(), max_pixels, place);
+  check_image_size(reader.size(), 4 * reader.component_bytes(), max_pixels, place);
 
   ImagePixels pixels{reader.size(), reader.component_bytes()};
   const std::size_t row_bytes = std::size_t{pixels.size.x} * 4 * pixels.component_bytes;
@@ -153,7 +153,8 @@ ImagePixels decoded_jpeg(std::span<const unsigned char> bytes, std::size_t max_p
   if (colours == TJCS_CMYK || colours == TJCS_YCCK)
     throw input_error(place, "expected a JPEG in grey or colour, found CMYK");
   ImagePixels pixels{{width, height}};
-  check_image_size(pixels.size, 1, max_pixels, place);
+  // libjpeg keeps the coefficients of an image of several scans, 2 bytes each of three components.
+  check_image_size(pixels.size, 4 + 3 * 2, max_pixels, place);
 
   pixels.rgba.resize(std::size_t{4} * pixels.size.x * pixels.size.y);
   constexpr int tightly = 0; // rows follow one another without a gap
@@ -180,6 +181,12 @@ std::vector<float> linear_of_stored(std::size_t largest) {
   return linear;
 }
 
+const std::vector<float> &linear_table(std::size_t component_bytes) {
+  static const std::vector<float> of_one_byte = linear_of_stored(0xff),
+                                  of_two_bytes = linear_of_stored(0xffff);
+  return component_bytes == 1 ? of_one_byte : of_two_bytes;
+}
+
 } // namespace
 
 ImagePixels decoded_image(std::span<const unsigned char> bytes, std::size_t max_pixels, const Place &place) {
@@ -199,7 +206,7 @@ double linear_from_srgb(double stored) {
 }
 
 Texture linear_texture(const ImagePixels &pixels) {
-  const std::vector<float> linear = linear_of_stored(largest_number(pixels));
+  const std::vector<float> &linear = linear_table(pixels.component_bytes);
   Texture texture{pixels.size, std::vector<glm::vec4>(std::size_t{pixels.size.x} * pixels.size.y)};
   for (std::size_t i = 0; i < texture.texels.size(); ++i) {
     const auto stored = [&](std::size_t c) { return stored_number(pixels, 4 * i + c); };

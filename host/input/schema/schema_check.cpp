@@ -1,5 +1,6 @@
 #include "host/input/schema/schema_check.h"
 
+#include "host/input/file/memory_request.h"
 #include "host/input/schema/hints.h"
 #include "host/input/words/near_name.h"
 
@@ -341,6 +342,14 @@ void fill_narrow_characters() {
     characters.narrow(static_cast<char>(character), '\0');
 }
 
+std::size_t values_in(const json &value) {
+  std::size_t values = 1;
+  if (value.is_structured())
+    for (const json &each : value)
+      values += values_in(each);
+  return values;
+}
+
 } // namespace
 
 DocumentSchema::DocumentSchema(json schema)
@@ -356,8 +365,11 @@ bool DocumentSchema::allows(const json &document) const {
 }
 
 void DocumentSchema::check(const json &document, const Place &root) const {
-  if (!allows(document)) // which ends with the first failure
-    refuse(document, root);
+  constexpr std::size_t failure_bytes = 1024; // about, of each value, where every one is wrong
+  if (allows(document))                       // which ends with the first failure
+    return;
+  require_memory(values_in(document) * failure_bytes, root, "looking for what is wrong");
+  refuse(document, root);
 }
 
 void DocumentSchema::refuse(const json &document, const Place &root) const {

@@ -1,5 +1,6 @@
 #include "host/input/file/input_file.h"
 #include "host/input/file/json_file.h"
+#include "host/input/file/memory_request.h"
 #include "host/input/image/image_pixels.h"
 #include "host/input/setup/parts.h"
 
@@ -59,6 +60,7 @@ std::vector<float> background_image_of(const ordered_json &background, const Pla
                                   sensor.resolution.y, pixels.size.x, pixels.size.y));
   const std::string channel = background.at("channel");
   const std::size_t first = channel == "red" ? 0 : channel == "green" ? 1 : 2;
+  require_memory(sensor.pixel_count() * sizeof(float), in_file, "its light");
   std::vector<float> values;
   values.reserve(sensor.pixel_count());
   for (std::size_t pixel = 0; pixel < sensor.pixel_count(); ++pixel)

@@ -1,5 +1,7 @@
 #include "host/input/words/folder_names.h"
 
+#include "host/input/words/utf8.h"
+
 #include <cerrno>
 #include <dirent.h>
 #include <memory>
@@ -33,6 +35,11 @@ std::vector<std::string> names_in(const std::filesystem::path &folder, std::erro
   if (!open)
     error.assign(errno, std::generic_category());
   return names;
+}
+
+bool is_plain_name(std::string_view name) {
+  return !name.empty() && !name.starts_with('.') && name.find('/') == std::string_view::npos &&
+         in_one_line(name) == name;
 }
 
 } // namespace pmdsim

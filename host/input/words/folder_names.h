@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -15,5 +16,9 @@ namespace pmdsim {
 // where memory is short.
 std::vector<std::string> names_in(const std::filesystem::path &folder, std::error_code &error,
                                   std::size_t most = std::numeric_limits<std::size_t>::max());
+
+// Whether a name that comes from a file can be one in a folder and in a message: not hidden, and in one line
+// of UTF-8.
+bool is_plain_name(std::string_view name);
 
 } // namespace pmdsim

@@ -1,19 +1,16 @@
 #include "host/output/files/frame_warnings.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace pmdsim {
 
 void FrameWarnings::add(const Warning &warning, std::uint32_t frame) {
-  const auto known = std::ranges::find_if(all_, [&](const OfFrames &each) {
-    return each.warning.code == warning.code && each.warning.place == warning.place;
-  });
-  if (known == all_.end()) {
+  const auto [place, is_new] = place_of_.try_emplace({warning.code, warning.place}, all_.size());
+  if (is_new) {
     all_.push_back({warning, frame, frame, 1});
-  } else if (known->last != frame) {
-    known->last = frame;
-    ++known->count;
+  } else if (OfFrames &known = all_[place->second]; known.last != frame) {
+    known.last = frame;
+    ++known.count;
   }
 }
 

@@ -3,7 +3,11 @@
 
 #include "engine/model/warning.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace pmdsim {
@@ -22,6 +26,7 @@ private:
     std::size_t count;
   };
   std::vector<OfFrames> all_;
+  std::map<std::pair<std::string, std::string>, std::size_t> place_of_; // in all_, by code and place
 };
 
 } // namespace pmdsim

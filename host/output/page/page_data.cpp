@@ -1,5 +1,6 @@
 #include "host/output/page/page_data.h"
 
+#include "engine/model/error.h"
 #include "host/input/frame/frame_file.h"
 #include "host/output/page/channel_words.h"
 #include "host/output/page/packed_values.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <span>
 #include <type_traits>
 
@@ -162,7 +162,7 @@ bool fill(PageData &data, const RunContent &run, std::size_t max_bytes, const st
 
 } // namespace
 
-PageData page_data(const RunContent &run, std::size_t max_bytes, const std::function<void()> &check) {
+PageData page_data(const RunContent &run, const PageRoom &room, const std::function<void()> &check) {
   PageData data;
   std::vector<SensorSize> sizes;
   for (const PageSensor &sensor : run.sensors) {
@@ -172,13 +172,17 @@ PageData page_data(const RunContent &run, std::size_t max_bytes, const std::func
   }
   // Frames differ in size from the first, and few pixels are packed less tightly than many: where too much
   // came out, a smaller plan is tried.
-  auto room = static_cast<double>(max_bytes);
-  for (int i = 0; i < most_tries; ++i, room *= 0.8) {
-    data.plan = plan_for(sizes, room);
-    if (fill(data, run, max_bytes, check))
+  auto planned_bytes = static_cast<double>(room.wanted_bytes);
+  for (int i = 0; i < most_tries; ++i, planned_bytes *= 0.8) {
+    data.plan = plan_for(sizes, planned_bytes);
+    if (fill(data, run, room.wanted_bytes, check))
       return data;
   }
-  fill(data, run, std::numeric_limits<std::size_t>::max(), check); // it is as small as it gets
+  if (!fill(data, run, room.most_bytes, check)) // it is as small as it gets
+    throw Error(ExitCode::input,
+                fmt::format("{}: a page has no room for frames that are so much larger than its first, "
+                            "--frames chooses fewer",
+                            run.directory.string()));
   return data;
 }
 

@@ -25,8 +25,15 @@ struct PageData {
   ChannelsByRank channels; // of the run's first frames
 };
 
-// Of at most `max_bytes`, as far as plan_for() can. `check` is called now and then; what it throws comes out.
-// Throws Error (input) that names the file that cannot be read.
-PageData page_data(const RunContent &run, std::size_t max_bytes, const std::function<void()> &check);
+// What the blocks may take: as far as plan_for() can, and at all, as later frames may be larger than the
+// first.
+struct PageRoom {
+  std::size_t wanted_bytes, most_bytes;
+};
+
+// `check` is called now and then; what it throws comes out.
+// Throws Error (input) that names the file that cannot be read, or the run whose later frames are far too
+// large.
+PageData page_data(const RunContent &run, const PageRoom &room, const std::function<void()> &check);
 
 } // namespace pmdsim

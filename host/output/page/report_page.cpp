@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr double mib = 1024.0 * 1024.0;
+constexpr std::size_t largest_page_bytes = std::size_t{1} << 28; // whatever was asked for
 
 // Three lists, red, green and blue, from 0 to 1.
 ordered_json colours_json() {
@@ -42,7 +43,8 @@ WrittenReport write_report(const ReportRequest &request, const std::function<voi
   const std::string head_text = run.head.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
   const std::size_t around = page_html.size() + page_style.size() + page_script.size() + head_text.size();
   const auto most = static_cast<std::size_t>(request.max_mib * mib);
-  PageData data = page_data(run, most > around ? most - around : 0, check);
+  const std::size_t wanted = most > around ? most - around : 0;
+  PageData data = page_data(run, {wanted, std::max(largest_page_bytes, 4 * wanted)}, check);
 
   const fs::path path = request.file.empty() ? request.directory / report_name : request.file;
   WrittenReport written{path.string(), 0, data.frames, left_out_text(data.plan, data.frames, data.channels)};

@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <charconv>
 #include <fmt/format.h>
+#include <set>
+#include <string_view>
 #include <sys/stat.h>
 #include <system_error>
 
@@ -48,9 +50,17 @@ using Array = ordered_json::array_t;
 
 // "NAME_0007.exr" of frame 7: in the folder, not hidden, and none of the run's own files.
 bool is_name_of_frame(const std::string &name, std::uint32_t frame) {
-  constexpr std::string_view no_plain_name("/\0", 2);
-  return !name.starts_with('.') && name.find_first_of(no_plain_name) == std::string::npos &&
-         name.find(fmt::format("_{:04}.", frame)) != std::string::npos;
+  return is_plain_name(name) && name.find(fmt::format("_{:04}.", frame)) != std::string::npos;
+}
+
+// Each is brought by itself, so that a file that is named twice would be there twice.
+bool are_different(const Array &sensors) {
+  std::set<std::string_view> names;
+  for (const ordered_json &sensor : sensors)
+    for (const ordered_json &name : sensor.at("manifest").at("outputs"))
+      if (!names.insert(name.get_ref<const std::string &>()).second)
+        return false;
+  return true;
 }
 
 // The three that follow: whether it looks as record_json() makes it, or json::exception.
@@ -84,7 +94,8 @@ bool has_its_form(const ordered_json &record, std::uint32_t frame) {
   const auto &sensors = record.at("sensors").get_ref<const Array &>();
   return record.at("frame") == frame && !sensors.empty() &&
          std::ranges::all_of(sensors,
-                             [&](const ordered_json &each) { return sensor_has_its_form(each, frame); });
+                             [&](const ordered_json &each) { return sensor_has_its_form(each, frame); }) &&
+         are_different(sensors);
 }
 
 // Nothing where there is no such file. It may go, or come, at any time.

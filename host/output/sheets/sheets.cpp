@@ -26,6 +26,8 @@ using nlohmann::ordered_json;
 
 constexpr std::uint32_t most_shown = 36;
 constexpr std::uint32_t most_frames = 100'000; // as of any setup
+// Far more than a run's sensors have, as records may have been edited.
+constexpr std::size_t most_strips = 4096;
 constexpr std::uint16_t frame_ms = 250;
 constexpr std::array<std::string_view, 2> endings{".sheet.png", ".apng"};
 
@@ -64,6 +66,8 @@ bool add_frame(const ordered_json &record, std::uint32_t frame, Strips &strips) 
       strip.sensor = name;
       strip.frames.push_back(frame);
       strip.thumbnails.push_back(std::move(*thumbnail));
+      if (strips.size() > most_strips)
+        return false;
     }
   }
   return true;
@@ -77,12 +81,6 @@ bool is_whole(const FilmStrip &strip, const std::vector<std::uint32_t> &shown) {
              strip.thumbnails, [&](const glm::uvec2 &other) { return other == size; }, size_of);
 }
 
-// A name that can be a file's, as records may have been edited.
-bool is_plain(const std::string &name) {
-  return !name.empty() && !name.starts_with('.') &&
-         name.find_first_of(std::string_view("/\0", 2)) == name.npos;
-}
-
 // Empty where something is missing.
 Strips strips_of(const fs::path &folder, const std::string &run_hash, const std::vector<std::uint32_t> &shown,
                  const std::function<void()> &check) {
@@ -94,7 +92,7 @@ Strips strips_of(const fs::path &folder, const std::string &run_hash, const std:
       return {};
   }
   std::erase_if(strips, [&](const auto &of) {
-    return !is_plain(of.second.sensor) || !is_plain(of.first.second) || !is_whole(of.second, shown);
+    return !is_plain_name(of.second.sensor) || !is_plain_name(of.first.second) || !is_whole(of.second, shown);
   });
   return strips;
 }

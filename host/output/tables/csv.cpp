@@ -14,10 +14,10 @@ std::string field(const ordered_json &value) {
     return "";
   if (!value.is_string())
     return value.dump();
-  std::string text = value;
-  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2))
-    text.insert(at, 1, '"');
-  return '"' + text + '"';
+  std::string text(1, '"');
+  for (const char c : value.get_ref<const std::string &>())
+    text.append(c == '"' ? 2 : 1, c);
+  return text + '"';
 }
 
 ordered_json flat(const ordered_json &row) {

@@ -31,6 +31,24 @@ TEST_CASE("what a record tells of a frame is beside what the row says, and never
   CHECK(row.find("\"high\"\n") != std::string::npos);
 }
 
+TEST_CASE("a change that has the name of one of the row's own keys takes none's place") {
+  const Variant variant{"0000", {}, json{{"variant", nullptr}, {"sensor", nullptr}, {"frame", "x"}}};
+  VariantTable table({variant});
+  table.add(variant,
+            {{"manifest", {{"sensor", "pmd"}, {"frame", 7}, {"time_s", 0.5}, {"error_claimed_m", 0.1}}}});
+  const std::string row = table.text().substr(table.text().find('\n') + 1);
+  CHECK(row.starts_with("0000 "));
+  CHECK(row.find(" pmd ") != std::string::npos);
+  CHECK(row.find(" 7 ") != std::string::npos);
+}
+
+TEST_CASE("setups whose names are other folders' name none of their frames") {
+  CHECK(frames_folder_of("scenes/wall.json") == "wall");
+  for (const char *file : {"...json", "scenes/...json", "..json"})
+    CHECK_THROWS_WITH(frames_folder_of(file),
+                      Catch::StartsWith(file) && Catch::Contains("the folder of its frames"));
+}
+
 TEST_CASE("the table that people read has no control characters of a record") {
   const Variant variant{"0000", {}, json::object()};
   VariantTable table({variant});

@@ -230,12 +230,19 @@ TEST_CASE("a record counts while its files are there, each of its size, and it i
   }
   SECTION("of another form") { std::ofstream(record) << R"({"frame": 7, "run": "a", "sensors": [{}]})"; }
   SECTION("of files that are no frame's, or elsewhere") {
-    const std::string name = GENERATE("../out/pmd_0007.txt", "run.json", ".pmd_0007.txt", "pmd_0008.txt");
+    const std::string name =
+        GENERATE("../out/pmd_0007.txt", "run.json", ".pmd_0007.txt", "pmd_0008.txt", "\x1b[2Jpmd_0007.txt");
     if (!std::filesystem::exists(folder.path / name))
       std::filesystem::copy_file(file, folder.path / name);
     edit([&](nlohmann::json &sensor) {
       sensor["manifest"]["outputs"][0] = name;
       sensor["bytes"][0] = std::filesystem::file_size(folder.path / name);
+    });
+  }
+  SECTION("a file that is named twice") {
+    edit([](nlohmann::json &sensor) {
+      sensor["manifest"]["outputs"].push_back(sensor["manifest"]["outputs"][0]);
+      sensor["bytes"].push_back(sensor["bytes"][0]);
     });
   }
   CHECK_FALSE(run.whole(7));

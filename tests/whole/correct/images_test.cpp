@@ -255,4 +255,13 @@ TEST_CASE("a corrected image has a manifest and a page, and takes no other run's
   REQUIRE(camera.correct(image, {"--format", "exr"}).exit_code == 0); // again
   camera.work.write("corrected/manifest.json", R"({"command": "render", "frames": []})");
   check_refusal(camera.correct(image), 7, {"has the frames of `pmdsim render`", "another directory"});
+  camera.work.write("corrected/manifest.json", R"({"command": 5})"); // is no run's
+  CHECK(camera.correct(image, {"--format", "exr"}).exit_code == 0);
+}
+
+TEST_CASE("a link in a run's directory is no image") {
+  const RealCamera camera;
+  std::filesystem::create_directory(camera.work / "run");
+  std::filesystem::create_symlink("/etc/passwd", camera.work / "run/pmd_0000.h5");
+  check_refusal(camera.correct(camera.work / "run"), 3, {"pmd_0000.h5: is a link, expected a file"});
 }

@@ -126,7 +126,7 @@ std::vector<Bytes> read_gltf_buffers(const GltfDocument &document, const fs::pat
       throw input_error(Place{file} / "buffers" / i / "byteLength",
                         fmt::format("expected at most {} bytes in all buffers", max_gltf_file_bytes));
     left_bytes -= length_bytes;
-    require_memory(length_bytes, Place{file} / "buffers" / i / "byteLength", "the buffer");
+    require_memory(2 * length_bytes, Place{file} / "buffers" / i / "byteLength", "the buffer");
     result[i] = read_buffer(document, file, i);
   }
   return result;

@@ -27,14 +27,15 @@ struct Description {
   double alpha_cutoff; // of MASK, else 0
 };
 
-std::optional<double> stated_reflectivity(const json &material) {
-  static const json::json_pointer key("/extras/pmdsim_reflectivity");
-  return material.contains(key) ? std::optional(material.at(key).get<double>()) : std::nullopt;
+// A number of the material's extras.
+std::optional<double> stated(const json &material, const char *key) {
+  const json::json_pointer place = json::json_pointer("/extras") / key;
+  return material.contains(place) ? std::optional(material.at(place).get<double>()) : std::nullopt;
 }
 
 Description described(const json &material) {
   Description result{material.value("pbrMetallicRoughness", json::object()), glm::dvec4(1.0),
-                     stated_reflectivity(material), material.value("alphaMode", "OPAQUE"), 0.0};
+                     stated(material, "pmdsim_reflectivity"), material.value("alphaMode", "OPAQUE"), 0.0};
   result.base.value("baseColorFactor", json{1.0, 1.0, 1.0, 1.0}).get_to(result.factor);
   // Above 1 all cutoffs mean the same: nothing is left.
   constexpr double beyond_any_alpha = 2.0;
@@ -94,20 +95,22 @@ double GltfMaterials::add_texture(const json &info, Paint &paint, GltfMaterial &
 GltfMaterial GltfMaterials::material_of(int index, bool has_colours) {
   static const json default_material = json::object();
   const json &material = index < 0 ? default_material : materials_.at(static_cast<std::size_t>(index));
-  const Description stated = described(material);
-  const bool is_blended = stated.alpha_mode == "BLEND";
+  const Description description = described(material);
+  const bool is_blended = description.alpha_mode == "BLEND";
   GltfMaterial result;
   result.blended = is_blended;
   Paint paint;
-  double least_alpha = stated.factor.a;
-  if (stated.base.contains(texture_key) && (!stated.reflectivity || is_blended || stated.alpha_cutoff > 0.0))
-    least_alpha *= add_texture(stated.base.at(texture_key), paint, result);
+  double least_alpha = description.factor.a;
+  if (description.base.contains(texture_key) &&
+      (!description.reflectivity || is_blended || description.alpha_cutoff > 0.0))
+    least_alpha *= add_texture(description.base.at(texture_key), paint, result);
   if (is_blended && least_alpha < 1.0)
     throw input_error(root_ / "materials" / static_cast<std::size_t>(index) / "alphaMode",
                       "BLEND is not supported where alpha is below 1 (expected \"MASK\" or \"OPAQUE\")");
 
-  result.surface = surface_of(stated, std::move(paint), least_alpha, has_colours);
+  result.surface = surface_of(description, std::move(paint), least_alpha, has_colours);
   result.surface.double_sided = material.value("doubleSided", false);
+  result.point_area_m2 = stated(material, "pmdsim_point_area_m2");
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace pmdsim {
@@ -16,6 +17,7 @@ struct GltfMaterial {
   // Where the surface's paint has a texture: which TEXCOORD_n, and the texture's (u, v, 1) from them.
   std::uint32_t texture_coordinates = 0;
   glm::dmat3 texture_from_coordinates{1.0};
+  std::optional<double> point_area_m2; // > 0
   bool blended = false; // alphaMode BLEND: vertex colours with an alpha below 1 would be translucent
 };
 

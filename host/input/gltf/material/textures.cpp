@@ -30,9 +30,11 @@ std::size_t source_of(const json &texture, const Place &place) {
                                        in_quotes(extensions.begin().key())));
 }
 
-Bytes bytes_of_uri(const std::string &uri, UriFiles files, const Place &place) {
+// `max_bytes`: of a file.
+Bytes bytes_of_uri(const std::string &uri, UriFiles files, std::size_t max_bytes, const Place &place) {
   if (!uri.starts_with("data:")) {
-    const std::string bytes = read_regular_file(file_of_uri(uri, files, place), max_gltf_file_bytes, place);
+    const std::string bytes = read_regular_file(file_of_uri(uri, files, place), max_bytes, place);
+    require_memory(bytes.size(), place, "the image's file");
     return {bytes.begin(), bytes.end()};
   }
   Bytes bytes;
@@ -85,9 +87,10 @@ GltfTextures::Image GltfTextures::decoded(std::size_t index) {
   Bytes own;
   std::span<const unsigned char> bytes;
   if (image.contains("uri"))
-    bytes = own = bytes_of_uri(image.at("uri").get<std::string>(), files_, place / "uri");
+    bytes = own = bytes_of_uri(image.at("uri").get<std::string>(), files_, left_bytes_, place / "uri");
   else
     bytes = bytes_of_view(*model_, image.at("bufferView").get<std::size_t>(), root_);
+  left_bytes_ -= own.size();
   const ImagePixels pixels = decoded_image(bytes, left_texels_, place);
   require_memory(std::size_t{pixels.size.x} * pixels.size.y * sizeof(glm::vec4), place, "its light");
   auto texels = std::make_shared<const Texture>(linear_texture(pixels));

@@ -44,6 +44,7 @@ private:
   UriFiles files_;
   std::map<std::size_t, Image> decoded_;
   std::size_t left_texels_ = max_file_texels;
+  std::size_t left_bytes_ = max_gltf_file_bytes; // of images' files
 };
 
 } // namespace pmdsim

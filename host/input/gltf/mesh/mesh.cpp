@@ -16,20 +16,12 @@
 namespace pmdsim {
 namespace {
 
-constexpr const char *area_key = "pmdsim_point_area_m2";
-
 // That of a point of its material's area.
-double material_radius_m(const GltfPrimitive &primitive) {
-  const int material = primitive.data.material;
-  const tinygltf::Value extras =
-      material < 0 ? tinygltf::Value() : primitive.model.materials[static_cast<std::size_t>(material)].extras;
-  const double area_m2 = extras.Has(area_key) ? extras.Get(area_key).GetNumberAsDouble() : 0.0;
-  const double radius_m = std::sqrt(area_m2 / std::numbers::pi);
+double material_radius_m(const GltfPrimitive &primitive, const GltfMaterial &material) {
+  const double radius_m = std::sqrt(material.point_area_m2.value_or(0.0) / std::numbers::pi);
   if (radius_m == 0.0)
-    throw input_error(primitive.place,
-                      fmt::format("points without a size, expected the attribute _RADIUS or a material with "
-                                  "extras.{}",
-                                  area_key));
+    throw input_error(primitive.place, "points without a size, expected the attribute _RADIUS or a material "
+                                       "with extras.pmdsim_point_area_m2");
   return radius_m;
 }
 
@@ -37,12 +29,12 @@ double material_radius_m(const GltfPrimitive &primitive) {
 // that of the area extras.pmdsim_point_area_m2 of its material. The node scales both with the cube root of
 // its change of volume; but an area's radius stays where positions are quantized, for their node's scale is
 // part of the quantization and their unit no metre. Throws Error (input) at the primitive.
-std::vector<double> point_radii_m(const GltfPrimitive &primitive, const Placement &placement,
-                                  std::size_t vertex_count) {
+std::vector<double> point_radii_m(const GltfPrimitive &primitive, const GltfMaterial &material,
+                                  const Placement &placement, std::size_t vertex_count) {
   std::vector<double> radii = read_radii(primitive);
   const bool is_scaled = !radii.empty() || !is_quantized(primitive);
   if (radii.empty())
-    radii.assign(vertex_count, material_radius_m(primitive));
+    radii.assign(vertex_count, material_radius_m(primitive, material));
   for (std::size_t i = 0; i < radii.size(); ++i) {
     if (is_scaled)
       radii[i] *= std::cbrt(std::abs(glm::determinant(placement.world_from_mesh(i).linear)));
@@ -151,11 +143,19 @@ std::vector<glm::vec4> colours(const GltfPrimitive &primitive, const GltfMateria
   return result;
 }
 
+// By vertex, as each may be many triangles' and bound to many joints.
+std::vector<bool> mirrored_vertices(const Placement &placement, std::size_t vertex_count) {
+  std::vector<bool> mirrored(vertex_count);
+  for (std::size_t i = 0; i < vertex_count; ++i)
+    mirrored[i] = glm::determinant(placement.world_from_mesh(i).linear) < 0.0;
+  return mirrored;
+}
+
 void append_triangles(const std::vector<Corners> &triangles, const std::vector<std::uint32_t> &indices,
-                      const Placement &placement, std::uint32_t first_vertex, std::uint32_t surface,
+                      const std::vector<bool> &mirrored, std::uint32_t first_vertex, std::uint32_t surface,
                       std::uint32_t object, Scene &scene) {
   for (Corners corners : triangles) {
-    if (glm::determinant(placement.world_from_mesh(indices[corners[0]]).linear) < 0.0)
+    if (mirrored[indices[corners[0]]])
       std::swap(corners[1], corners[2]);
     const auto vertex = [&](std::size_t k) { return first_vertex + indices[corners[k]]; };
     scene.triangles.push_back({{vertex(0), vertex(1), vertex(2)}, surface, object});
@@ -166,13 +166,14 @@ void append_triangles(const std::vector<Corners> &triangles, const std::vector<s
 
 void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &data,
                       const Placement &placement, const GltfMaterial &material, std::uint32_t surface,
-                      std::uint32_t object, const Place &place, Scene &scene) {
+                      std::uint32_t object, const Place &place, std::size_t &shapes, Scene &scene) {
   const GltfPrimitive primitive{model, data, place};
   refuse_other_geometry(data, place);
   const std::vector<glm::dvec4> positions = read_positions(primitive);
   const std::size_t before = scene.positions_m.size(), count = positions.size();
   const std::vector<std::uint32_t> indices = vertex_indices(primitive, count);
-  if (before + count > max_scene_vertices || scene.shape_count() + indices.size() > max_scene_vertices)
+  shapes += indices.size();
+  if (before + count > max_scene_vertices || shapes > max_scene_vertices)
     throw input_error(
         place, fmt::format("the scene has more than {} vertices, triangles or points", max_scene_vertices));
 
@@ -181,10 +182,11 @@ void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &d
   const std::vector<glm::dvec3> world = world_positions(positions, placement, place);
   const auto first_vertex = static_cast<std::uint32_t>(before);
   if (data.mode == TINYGLTF_MODE_POINTS)
-    append_discs(indices, point_radii_m(primitive, placement, count), first_vertex, surface, object, scene);
+    append_discs(indices, point_radii_m(primitive, material, placement, count), first_vertex, surface, object,
+                 scene);
   else
     append_triangles(triangle_corners(data.mode, static_cast<std::uint32_t>(indices.size()), place), indices,
-                     placement, first_vertex, surface, object, scene);
+                     mirrored_vertices(placement, count), first_vertex, surface, object, scene);
   extend(scene.colours, colours(primitive, material), glm::vec4(1.0f), before, count);
   extend(scene.texture_coordinates, texture_coordinates(primitive, material), glm::dvec2(0.0), before, count);
   scene.positions_m.insert(scene.positions_m.end(), world.begin(), world.end());

@@ -19,10 +19,11 @@ inline constexpr std::size_t max_scene_vertices = std::size_t{1} << 25; // and a
 // texture asks for, and its triangles (TRIANGLES, TRIANGLE_STRIP or TRIANGLE_FAN, indexed or not) or points
 // (POINTS) to `scene`. Where the placement mirrors a triangle, judged at its first corner, the winding is
 // turned, so that the front stays the front. Triangles without an area, such as strips are stitched with,
-// stay too: ids count what the file holds. `surface` is the material's, in the scene. Throws Error (input) at
-// `place`, /meshes/I/primitives/K.
+// stay too: ids count what the file holds. `surface` is the material's, in the scene. `shapes` counts indices
+// so far, also those of points too small to be there. Throws Error (input) at `place`,
+// /meshes/I/primitives/K.
 void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
                       const Placement &placement, const GltfMaterial &material, std::uint32_t surface,
-                      std::uint32_t object, const Place &place, Scene &scene);
+                      std::uint32_t object, const Place &place, std::size_t &shapes, Scene &scene);
 
 } // namespace pmdsim

@@ -5,6 +5,7 @@
 #include "host/input/file/json_file.h"
 #include "host/input/frame/frame_file.h"
 #include "host/input/gltf/loader.h"
+#include "host/input/image/image_pixels.h"
 #include "host/memory/machine_memory.h"
 #include "host/memory/memory_limit.h"
 #include "host/output/files/channel.h"
@@ -20,6 +21,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <random>
+#include <span>
 #include <vector>
 
 using namespace pmdsim;
@@ -87,7 +89,7 @@ TEST_CASE("JSON of very many values is refused before it is built") {
         "scene.gltf: expected at most 16777216 values");
   const std::string lists = "[" + repeated("[],", 1'000'000) + "0]";
   CHECK_THAT(out_of_memory_of([&] { parse_json(lists, "scene.gltf", Comments::refused); }),
-             Contains("scene.gltf: out of memory: a document of 1000002 values needs 64 MB beside the "));
+             Contains("scene.gltf: out of memory: a document of 1000002 values needs 70 MB beside the "));
 }
 
 TEST_CASE("images ask for the memory of their pixels") {
@@ -95,6 +97,13 @@ TEST_CASE("images ask for the memory of their pixels") {
   const auto file = folder.write("large.png", png_header(10000, 9000));
   CHECK_THAT(out_of_memory_of([&] { read_image_arrays(file, any_array); }),
              Contains("large.png: out of memory: an image of 10000 x 9000 needs 360 MB"));
+}
+
+TEST_CASE("JPEGs ask for the memory of their coefficients, too") {
+  const std::string bytes = jpeg_of_one_pixel(3000, 2000);
+  const std::span shown(reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
+  CHECK_THAT(out_of_memory_of([&] { decoded_image(shown, side * side, Place{"large.jpg"}); }),
+             Contains("large.jpg: out of memory: an image of 3000 x 2000 needs 60 MB"));
 }
 
 TEST_CASE("frames that were compressed well ask for the memory of their channels") {
@@ -148,10 +157,32 @@ TEST_CASE("lines of numbers ask for the memory of their fields") {
 TEST_CASE("lists of a scene ask for the memory of what they become") {
   const TemporaryFolder folder;
   json gltf = one_triangle();
-  gltf["materials"] = json::array_t(20'000, json::object());
+  gltf["nodes"] = json::array_t(60'000, gltf["nodes"][0]);
   const auto file = folder.write("scene.gltf", gltf.dump());
   CHECK_THAT(out_of_memory_of([&] { load_gltf(file, Place{file}).at(0); }),
              Contains("scene.gltf: out of memory: a model of its lists needs "));
+}
+
+TEST_CASE("a scene that is wrong in very many places asks for the memory to tell of one") {
+  const TemporaryFolder folder;
+  json gltf = one_triangle();
+  gltf["nodes"] = json::array_t(200'000, 0);
+  const auto file = folder.write("scene.gltf", gltf.dump());
+  CHECK_THAT(out_of_memory_of([&] { load_gltf(file, Place{file}); }),
+             Contains("out of memory: looking for what is wrong needs "));
+}
+
+TEST_CASE("what others add to a scene is not copied") {
+  const TemporaryFolder folder;
+  json gltf = one_triangle();
+  gltf["nodes"][0]["extras"] = json::array_t(100'000, 0); // 150 bytes each in tinygltf
+  gltf["nodes"][0]["extensions"]["SOME_other"] = json::array_t(100'000, 0);
+  gltf["extensionsUsed"] = {"SOME_other"};
+  const auto file = folder.write("scene.gltf", gltf.dump());
+  const std::uint64_t before = taken_memory();
+  const GltfFile scene = load_gltf(file, Place{file});
+  CHECK(scene.at(0).scene.triangles.size() == 1);
+  CHECK(taken_memory() < before + 20'000'000);
 }
 
 TEST_CASE("primitives that share an accessor ask for the memory of each") {

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <fmt/format.h>
 #include <limits>
 #include <random>
 #include <string>
@@ -152,6 +153,19 @@ TEST_CASE("channels of EXR files have names in UTF-8") {
        {"o\xb2", "o\xc0\xaf", "o\xc2", "o\xe0\x9f\xbf", "o\xed\xa0\x80", "o\xf4\x90\x80\x80", "o\xff"})
     check_refused(renamed(name), "expected names of channels in UTF-8");
   check_refused(renamed("object_i\xc2"), "expected names of channels in UTF-8");
+}
+
+TEST_CASE("EXR files have a limited number of channels") {
+  const TemporaryFolder folder;
+  const std::vector<float> value(1);
+  ChannelSet channels{{1, 1}, {}};
+  for (int i = 0; i <= 4096; ++i)
+    channels.channels.push_back({fmt::format("channel_{}", i), "", std::span(value)});
+  OutputFile file(folder.path() / "many.exr");
+  write_exr(file, channels);
+  file.close();
+  file.publish();
+  check_refused(folder.path() / "many.exr", "expected 1 to 4096 channels");
 }
 
 TEST_CASE("frames of any bytes are read or refused") {

@@ -130,3 +130,16 @@ TEST_CASE("Points whose size is missing or none are refused") {
   CHECK_THAT(scene_error_of(with_radii({1, 2, 3}, points({0, 3}))),
              EndsWith("/accessors/1: element 1 is vertex 3, expected one below 3"));
 }
+
+TEST_CASE("Points that are too small to be there count as others do") {
+  constexpr std::size_t most = std::size_t{1} << 25, indices = std::size_t{1} << 15;
+  json gltf = with_area(1e-30, points(std::vector<std::uint16_t>(indices, 0)));
+  const json node = gltf["nodes"][0];
+  gltf["nodes"] = json::array();
+  for (std::size_t i = 0; i <= most / indices; ++i) {
+    gltf["nodes"].push_back(node);
+    gltf["scenes"][0]["nodes"].push_back(i);
+  }
+  gltf["scenes"][0]["nodes"].erase(0);
+  CHECK_THAT(scene_error_of(gltf), Contains("more than 33554432 vertices, triangles or points"));
+}

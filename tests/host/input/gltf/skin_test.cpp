@@ -3,6 +3,7 @@
 #include "tests/host/input/gltf/moving_gltf.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -122,4 +123,18 @@ TEST_CASE("One mesh with two skins, and once without") {
   for (const glm::dvec3 &position : rest)
     expected.push_back(position + glm::dvec3(0, 0, 5));
   check_positions(scene, expected);
+}
+
+TEST_CASE("Nodes that place the same skinned mesh again and again are limited by its weights") {
+  json gltf = skinned_arm();
+  constexpr int sets = 4096; // three vertices' of four weights
+  for (const char *name : {"JOINTS_", "WEIGHTS_"})
+    for (int n = 1; n < sets; ++n)
+      attributes_of(gltf)[fmt::format("{}{}", name, n)] = attributes_of(gltf)[fmt::format("{}0", name)];
+  const json node = gltf["nodes"][0];
+  for (int i = 0; i < 30'000; ++i) {
+    gltf["scenes"][0]["nodes"].push_back(gltf["nodes"].size());
+    gltf["nodes"].push_back(node);
+  }
+  CHECK_THAT(scene_error_of(gltf), Catch::Contains("nodes place more than 268435456 weights of skins"));
 }

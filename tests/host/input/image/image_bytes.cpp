@@ -102,4 +102,17 @@ std::string jpeg_bytes(int width, int height, const std::vector<std::uint8_t> &p
   return {reinterpret_cast<const char *>(encoded), size};
 }
 
+std::string jpeg_of_one_pixel(std::uint16_t width, std::uint16_t height) {
+  constexpr bool is_progressive = true;
+  std::string bytes = jpeg_bytes(1, 1, {0, 0, 0}, JpegColours::rgb, is_progressive);
+  const std::size_t frame = bytes.find("\xff\xc2"); // its length of two bytes and a depth go before the sides
+  const auto set = [&](std::size_t at, std::uint16_t side) {
+    bytes[at] = static_cast<char>(side >> 8);
+    bytes[at + 1] = static_cast<char>(side & 0xff);
+  };
+  set(frame + 5, height);
+  set(frame + 7, width);
+  return bytes;
+}
+
 } // namespace pmdsim::test

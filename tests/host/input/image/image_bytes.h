@@ -27,6 +27,8 @@ std::string png_header(std::uint32_t width, std::uint32_t height);
 std::string png_chunk(const std::string &type, const std::string &data);
 
 enum class JpegColours { rgb, grey, cmyk };
+// A progressive JPEG whose header tells of so many pixels: it has one.
+std::string jpeg_of_one_pixel(std::uint16_t width, std::uint16_t height);
 // JPEG of the best quality without subsampling.
 std::string jpeg_bytes(int width, int height, const std::vector<std::uint8_t> &pixels,
                        JpegColours colours = JpegColours::rgb, bool is_progressive = false);

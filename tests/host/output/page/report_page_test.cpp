@@ -4,6 +4,7 @@
 #include "host/input/frame/frame_file.h"
 #include "host/output/files/channel.h"
 #include "host/output/files/h5_writer.h"
+#include "host/output/page/page_data.h"
 #include "host/output/page/page_text.h"
 #include "host/output/page/report_page.h"
 #include "tests/host/output/page/page_reading.h"
@@ -170,6 +171,28 @@ TEST_CASE(
     for (std::size_t column = 0; column < large.x; column += step)
       expected.append(reinterpret_cast<const char *>(&run.distances[row * large.x + column]), sizeof(float));
   CHECK(bytes == expected);
+}
+
+TEST_CASE("frames that are far larger than the first are refused, not gathered") {
+  PageRun run(2);
+  std::mt19937 random(3);
+  constexpr glm::uvec2 large{500, 500};
+  run.distances.assign(std::size_t{large.x} * large.y, 0.0f);
+  for (float &distance : run.distances)
+    distance = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+  OutputFile file(run.folder.path() / "pmd_0001.exr");
+  write_exr(file, {large, {{"distance_m", "m", std::span(run.distances)}}});
+  file.close();
+  file.publish();
+  for (int i = 0; i < 200; ++i)
+    run.manifest["frames"].push_back(run.manifest["frames"][1]);
+  run.write();
+  constexpr std::size_t wanted_bytes = 100'000, most_bytes = 5'000'000;
+  std::size_t frames = 0;
+  CHECK_THROWS_WITH(page_data(read_run(run.folder.path(), std::nullopt), {wanted_bytes, most_bytes},
+                              [&frames] { ++frames; }),
+                    Catch::Contains("no room for frames that are so much larger than its first"));
+  CHECK(frames < 100);
 }
 
 TEST_CASE("some frames alone, and a page elsewhere") {
