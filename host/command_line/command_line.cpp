@@ -223,11 +223,13 @@ void add_commands(CLI::App &app, Written &written) {
   CLI::App *merge = app.add_subcommand(
       "merge", "bring the frames of several directories, as --shard leaves them, together in one");
   add_merging(*merge, written);
+  add_max_memory(*merge, written.max_memory);
 
   CLI::App *report = app.add_subcommand(
       "report", "a finished run as one page for a browser: pictures, values under the mouse, points to turn");
   add_report(*report, written.reporting);
   add_frames(*report, written);
+  add_max_memory(*report, written.max_memory);
 
   CLI::App *import_calibration = app.add_subcommand(
       "import-calibration", "print a sensor, for a setup, from what calibration tools write");

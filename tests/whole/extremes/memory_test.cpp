@@ -151,6 +151,14 @@ TEST_CASE("scenes and tables are within the limit, too") {
     CHECK(refused.errors.find("out of memory: ") != std::string::npos);
     CHECK(refused.errors.find("--max-memory is 20 MB") != std::string::npos);
   }
+  const std::string run = work / "run";
+  run_well({"render", scene("corner.json"), "-o", run, "--format", "exr"}, {});
+  for (const char *command : {"report", "merge"}) {
+    const Run refused = run_pmdsim({command, run, "--max-memory", "1MB"}, as_users);
+    INFO(command << ": " << refused.errors);
+    CHECK(refused.exit_code == 5);
+    CHECK(refused.errors.find("--max-memory is 1 MB") != std::string::npos);
+  }
   const Run misread = run_pmdsim({"check", room, "--max-memory", "4"}, as_users);
   CHECK(misread.exit_code == 2);
   CHECK(misread.errors.find("--max-memory: expected a number of bytes with its unit") != std::string::npos);
