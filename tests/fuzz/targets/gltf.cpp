@@ -14,9 +14,12 @@ FUZZ_TARGET(gltf) {
       fuzz::check_line(warning.text);
       fuzz::check_line(warning.place);
     }
+    static_cast<void>(gltf.moves());
+    fuzz::accepts([&] { gltf.at(0.0, {{"absent", {}, Place{"setup.json"} / "nodes"}}); });
     for (const double time_s : {0.0, 0.25, -3.0, 1e9})
       fuzz::accepts([&] {
         const GltfScene scene = gltf.at(time_s);
+        fuzz::check_line(absent_camera_text("camera", gltf.file(), scene.nodes));
         if (!scene.nodes.empty())
           static_cast<void>(gltf.at(time_s, {{scene.nodes.front().name, {}, Place{"setup.json"} / "nodes"}}));
       });
