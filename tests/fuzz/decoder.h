@@ -41,9 +41,10 @@ public:
   double log_uniform(double lowest, double highest) {
     return std::exp(uniform(std::log(lowest), std::log(highest)));
   }
-  // Up to as many bytes as the next one says.
+  // Up to as many bytes as the next one says, or, where that is 255, the next two.
   std::string text() {
-    std::string text(byte(), '\0');
+    const std::size_t most = byte();
+    std::string text(most == 255 ? bits(2) : most, '\0');
     std::size_t length = 0;
     for (; length < text.size() && !is_at_end(); ++length)
       text[length] = static_cast<char>(byte());
