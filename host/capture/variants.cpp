@@ -5,6 +5,7 @@
 #include "host/input/file/input_file.h"
 #include "host/input/file/json_file.h"
 #include "host/input/file/memory_request.h"
+#include "host/input/words/utf8.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ void refuse_doubled_names(const std::vector<SetupDocument> &setups) {
       throw Error(ExitCode::usage,
                   fmt::format("{}: expected setups of different names, as they name the folders of "
                               "their frames",
-                              setup.file.string()));
+                              in_one_line(setup.file.string())));
 }
 
 // Each variant has its setup's document, as its changes leave it.
@@ -63,7 +64,7 @@ std::string frames_folder_of(const std::filesystem::path &setup) {
     throw Error(ExitCode::usage,
                 fmt::format("{}: expected a setup with a name before its ending, as it names "
                             "the folder of its frames",
-                            setup.string()));
+                            in_one_line(setup.string())));
   return name;
 }
 
