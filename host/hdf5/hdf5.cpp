@@ -29,8 +29,10 @@ Hdf5Reason hdf5_reason() {
     auto &kept = *static_cast<Hdf5Reason *>(to);
     if (error->desc)
       kept.text = error->desc;
+    // Version 1.10 also calls a lack of space what is one of bytes in the file.
+    const bool is_of_file = kept.text.starts_with("ran off the end of the buffer");
     kept.lacks_memory =
-        kept.lacks_memory || (error->maj_num == H5E_RESOURCE && error->min_num == H5E_NOSPACE);
+        kept.lacks_memory || (error->maj_num == H5E_RESOURCE && error->min_num == H5E_NOSPACE && !is_of_file);
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep, &reason); // the last one is the innermost

@@ -248,3 +248,13 @@ TEST_CASE("links to one dataset hold no more than the file, links elsewhere are 
   CHECK(read.channels[0].name == "z_m");
   check_refused(make(true), "dataset lit: expected datasets of");
 }
+
+TEST_CASE("a lack of bytes in a file is no lack of memory, though HDF5 calls it one") {
+  const auto lacks_memory = [](const char *text) {
+    const Hdf5Turn turn;
+    H5Epush2(H5E_DEFAULT, __FILE__, "decode", __LINE__, H5E_ERR_CLS, H5E_RESOURCE, H5E_NOSPACE, "%s", text);
+    return hdf5_reason().lacks_memory;
+  };
+  CHECK(lacks_memory("memory allocation failed"));
+  CHECK_FALSE(lacks_memory("ran off the end of the buffer: current p = 0x1, p_size = 56, p_end = 0x0"));
+}
