@@ -86,11 +86,12 @@ void refuse_other_run(const std::filesystem::path &directory) {
     return;
   const auto manifest =
       parsed_in_order(read_regular_file(file, max_manifest_bytes, Place{file}), file, max_manifest_values);
-  const ordered_json command =
+  const ordered_json written =
       manifest && manifest->is_object() ? manifest->value("command", ordered_json()) : ordered_json();
-  if (command.is_string() && command != "" && command != "correct")
+  const std::string command = written.is_string() ? written.get<std::string>() : "";
+  if (!command.empty() && command != "correct")
     throw Error(ExitCode::output, fmt::format("{}: has the frames of `pmdsim {}`, expected another directory",
-                                              directory.string(), command.get<std::string>()));
+                                              directory.string(), command));
 }
 
 // What a manifest and its frames say of how light was summed, which nothing was here.
