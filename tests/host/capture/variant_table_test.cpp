@@ -44,6 +44,7 @@ TEST_CASE("a change that has the name of one of the row's own keys takes none's 
 
 TEST_CASE("setups whose names are other folders' name none of their frames") {
   CHECK(frames_folder_of("scenes/wall.json") == "wall");
+  CHECK_THROWS_WITH(frames_folder_of("...\xc5"), Catch::StartsWith("...?: expected a setup with a name"));
   for (const char *file : {"...json", "scenes/...json", "..json"})
     CHECK_THROWS_WITH(frames_folder_of(file),
                       Catch::StartsWith(file) && Catch::Contains("the folder of its frames"));
