@@ -108,7 +108,8 @@ GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &
   if (!is_glb)
     refuse_other_kinds(*bytes, root);
   const Text text = is_glb ? split_glb(*bytes, root) : Text{*bytes, {}};
-  static const DocumentSchema schema(json::parse(gltf_schema_text));
+  constexpr std::size_t failure_bytes = 1024;
+  static const DocumentSchema schema(json::parse(gltf_schema_text), failure_bytes);
 
   GltfDocument document{parse_json(text.json, file, Comments::refused), {}};
   if (is_glb) { // whose lines nobody sees

@@ -23,14 +23,17 @@ using nlohmann::json;
 
 namespace {
 
-// Throughout; depths are limited.
-void erase_additions(json &value) {
-  if (value.is_object())
-    for (const char *key : {"extras", "extensions"})
-      value.erase(key);
-  if (value.is_structured())
-    for (json &each : value)
-      erase_additions(each);
+// A copy without what others have added, at any depth; depths are limited.
+json without_additions(const json &value) {
+  if (!value.is_structured())
+    return value;
+  json kept(value.type());
+  for (const auto &[key, each] : value.items())
+    if (value.is_array())
+      kept.push_back(without_additions(each));
+    else if (key != "extras" && key != "extensions")
+      kept[key] = without_additions(each);
+  return kept;
 }
 
 // tinygltf opens whatever a file names and decodes every image, so it is given only the parts that name no
@@ -40,8 +43,7 @@ std::string core_of(const json &document) {
   for (const char *key : {"asset", "extensionsUsed", "extensionsRequired", "scene", "scenes", "nodes",
                           "meshes", "accessors", "bufferViews", "animations", "skins"})
     if (document.contains(key))
-      kept[key] = document.at(key);
-  erase_additions(kept);
+      kept[key] = without_additions(document.at(key));
   return kept.dump();
 }
 
@@ -135,17 +137,16 @@ std::string mesh_name(const tinygltf::Model &model, const tinygltf::Node &node) 
 
 // `placement_of` gives that of each of the mesh's primitives.
 template <class PlacementOf>
-void append_object(const tinygltf::Model &model, const tinygltf::Node &node, const std::string &name,
+void append_object(const tinygltf::Model &model, std::size_t mesh, const std::string &name,
                    PlacementOf placement_of, const Place &root, Surfaces &surfaces, std::size_t &shapes,
                    Scene &scene) {
   const auto object = static_cast<std::uint32_t>(scene.objects.size());
   scene.objects.push_back(name);
-  const auto mesh = static_cast<std::size_t>(node.mesh);
   const std::vector<tinygltf::Primitive> &primitives = model.meshes[mesh].primitives;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     const UsedMaterial &used = surfaces[primitives[i]];
-    append_primitive(model, primitives[i], placement_of(i), used.material, used.surface, object,
-                     root / "meshes" / mesh / "primitives" / i, shapes, scene);
+    const GltfPrimitive primitive{model, primitives[i], root / "meshes" / mesh / "primitives" / i};
+    append_primitive(primitive, {placement_of(i), used.material, used.surface, object}, shapes, scene);
   }
 }
 
@@ -241,8 +242,8 @@ GltfScene GltfFile::at(double time_s, const std::vector<PlacedNode> &placed) con
       result.nodes.push_back(
           {node.name, world_from[i], mesh_name(*model_, node), node.camera >= 0, camera_of(node.camera)});
     if (node.mesh >= 0)
-      append_object(*model_, node, object_name(*model_, nodes[naming[i]]), placement_of, root, surfaces,
-                    shapes, result.scene);
+      append_object(*model_, static_cast<std::size_t>(node.mesh), object_name(*model_, nodes[naming[i]]),
+                    placement_of, root, surfaces, shapes, result.scene);
   }
   return result;
 }

@@ -352,29 +352,21 @@ std::size_t values_in(const json &value) {
 
 } // namespace
 
-DocumentSchema::DocumentSchema(json schema)
-    : json_(std::move(schema)), parsed_(std::make_unique<valijson::Schema>()) {
+DocumentSchema::DocumentSchema(json schema, std::size_t failure_bytes)
+    : json_(std::move(schema)), failure_bytes_(failure_bytes), parsed_(std::make_unique<valijson::Schema>()) {
   fill_narrow_characters();
   valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(json_), *parsed_);
 }
 
 DocumentSchema::~DocumentSchema() = default;
 
-bool DocumentSchema::allows(const json &document) const {
-  return valijson::Validator().validate(*parsed_, valijson::adapters::NlohmannJsonAdapter(document), nullptr);
-}
-
 void DocumentSchema::check(const json &document, const Place &root) const {
-  constexpr std::size_t failure_bytes = 1024; // about, of each value, where every one is wrong
-  if (allows(document))                       // which ends with the first failure
+  const valijson::adapters::NlohmannJsonAdapter checked(document);
+  if (valijson::Validator().validate(*parsed_, checked, nullptr)) // which ends with the first failure
     return;
-  require_memory(values_in(document) * failure_bytes, root, "looking for what is wrong");
-  refuse(document, root);
-}
-
-void DocumentSchema::refuse(const json &document, const Place &root) const {
+  require_memory(values_in(document) * failure_bytes_, root, "looking for what is wrong");
   valijson::ValidationResults failures; // all, with their ways
-  valijson::Validator().validate(*parsed_, valijson::adapters::NlohmannJsonAdapter(document), &failures);
+  valijson::Validator().validate(*parsed_, checked, &failures);
   throw explained(deepest_failure(failures, document, json_, root), json_);
 }
 

@@ -4,6 +4,7 @@
 
 #include "host/input/file/input_error.h"
 
+#include <cstddef>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -22,16 +23,15 @@ extern const std::string_view gltf_schema_text;  // the parts of glTF 2.0 that a
 // A schema that is parsed once, however many documents are checked.
 class DocumentSchema {
 public:
-  explicit DocumentSchema(nlohmann::json schema);
+  // `failure_bytes` is about what looking for the fault takes in memory for each value of a document.
+  DocumentSchema(nlohmann::json schema, std::size_t failure_bytes);
   ~DocumentSchema();
-  bool allows(const nlohmann::json &document) const;
   // A wrong key or value is thrown as Error (input) with its place in the document, which is at `root`.
   void check(const nlohmann::json &document, const Place &root) const;
-  // The same, of a document that is known not to be allowed.
-  [[noreturn]] void refuse(const nlohmann::json &document, const Place &root) const;
 
 private:
   nlohmann::json json_;
+  std::size_t failure_bytes_;
   std::unique_ptr<valijson::Schema> parsed_;
 };
 

@@ -24,11 +24,10 @@ std::size_t checked_values(const json &value, const Place &place) {
 
 } // namespace
 
-std::size_t values_of_setup(const json &document, const Place &root) {
+void check_extent(const json &document, const Place &root) {
   const std::size_t values = checked_values(document, root);
   if (values > max_setup_values)
     throw input_error(root, fmt::format("expected at most {} values, found {}", max_setup_values, values));
-  return values;
 }
 
 } // namespace pmdsim

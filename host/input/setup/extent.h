@@ -12,7 +12,7 @@ namespace pmdsim {
 inline constexpr std::size_t max_setup_entries = std::size_t{1} << 12; // of each list and each object
 inline constexpr std::size_t max_setup_values = std::size_t{1} << 16;
 
-// How many values a document has. Throws Error (input) where there are more, or too many entries.
-std::size_t values_of_setup(const nlohmann::json &document, const Place &root);
+// Throws Error (input) where a document has more.
+void check_extent(const nlohmann::json &document, const Place &root);
 
 } // namespace pmdsim

@@ -1,6 +1,5 @@
 #include "host/input/setup/setup.h"
 
-#include "host/input/file/memory_request.h"
 #include "host/input/gltf/loader.h"
 #include "host/input/schema/schema_check.h"
 #include "host/input/setup/extent.h"
@@ -58,22 +57,15 @@ json schema_with_scene() {
   return schema;
 }
 
-// The way to each value that is not allowed is kept, until the one is found that is told of.
-void check_setup(const DocumentSchema &schema, const json &document, std::size_t values, const Place &root) {
-  constexpr std::size_t failure_bytes = 8192; // about
-  if (schema.allows(document))
-    return;
-  require_memory(values * failure_bytes, root, "looking for what is wrong");
-  schema.refuse(document, root);
-}
-
 ordered_json checked_setup(const SetupDocument &source, bool with_scene = true) {
-  static const DocumentSchema any_schema(json::parse(setup_schema_text)), scene_schema(schema_with_scene());
+  constexpr std::size_t failure_bytes = 8192; // as most keys have alternatives, which fail apart
+  static const DocumentSchema any_schema(json::parse(setup_schema_text), failure_bytes),
+      scene_schema(schema_with_scene(), failure_bytes);
   static const ordered_json ordered_schema = ordered_json::parse(setup_schema_text);
-  const std::size_t values = values_of_setup(source.json, source.root());
+  check_extent(source.json, source.root());
   json document = source.json;
   fill_presets(document);
-  check_setup(with_scene ? scene_schema : any_schema, document, values, source.root());
+  (with_scene ? scene_schema : any_schema).check(document, source.root());
   refuse_second_pattern(document, source.root());
   return with_all_defaults(document, ordered_schema);
 }

@@ -164,10 +164,10 @@ void append_triangles(const std::vector<Corners> &triangles, const std::vector<s
 
 } // namespace
 
-void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &data,
-                      const Placement &placement, const GltfMaterial &material, std::uint32_t surface,
-                      std::uint32_t object, const Place &place, std::size_t &shapes, Scene &scene) {
-  const GltfPrimitive primitive{model, data, place};
+void append_primitive(const GltfPrimitive &primitive, const PrimitiveUse &use, std::size_t &shapes,
+                      Scene &scene) {
+  const tinygltf::Primitive &data = primitive.data;
+  const Place &place = primitive.place;
   refuse_other_geometry(data, place);
   const std::vector<glm::dvec4> positions = read_positions(primitive);
   const std::size_t before = scene.positions_m.size(), count = positions.size();
@@ -179,16 +179,17 @@ void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &d
 
   // Positions are there twice until they are the scene's, whose lists may grow to twice what they hold.
   require_memory(count * 4 * sizeof(glm::dvec3) + indices.size() * sizeof(Triangle), place, "its geometry");
-  const std::vector<glm::dvec3> world = world_positions(positions, placement, place);
+  const std::vector<glm::dvec3> world = world_positions(positions, use.placement, place);
   const auto first_vertex = static_cast<std::uint32_t>(before);
   if (data.mode == TINYGLTF_MODE_POINTS)
-    append_discs(indices, point_radii_m(primitive, material, placement, count), first_vertex, surface, object,
-                 scene);
+    append_discs(indices, point_radii_m(primitive, use.material, use.placement, count), first_vertex,
+                 use.surface, use.object, scene);
   else
     append_triangles(triangle_corners(data.mode, static_cast<std::uint32_t>(indices.size()), place), indices,
-                     mirrored_vertices(placement, count), first_vertex, surface, object, scene);
-  extend(scene.colours, colours(primitive, material), glm::vec4(1.0f), before, count);
-  extend(scene.texture_coordinates, texture_coordinates(primitive, material), glm::dvec2(0.0), before, count);
+                     mirrored_vertices(use.placement, count), first_vertex, use.surface, use.object, scene);
+  extend(scene.colours, colours(primitive, use.material), glm::vec4(1.0f), before, count);
+  extend(scene.texture_coordinates, texture_coordinates(primitive, use.material), glm::dvec2(0.0), before,
+         count);
   scene.positions_m.insert(scene.positions_m.end(), world.begin(), world.end());
 }
 

@@ -58,8 +58,8 @@ struct TexturedTriangle {
 
   void append_to(Scene &scene) const {
     std::size_t shapes = 0;
-    append_primitive(model, primitive, Placement(AffineTransform{}), material, 0, 0,
-                     Place{"scene.gltf"} / "meshes" / 0 / "primitives" / 0, shapes, scene);
+    append_primitive({model, primitive, Place{"scene.gltf"} / "meshes" / 0 / "primitives" / 0},
+                     {Placement(AffineTransform{}), material, 0, 0}, shapes, scene);
   }
   std::vector<glm::dvec2> coordinates() const {
     Scene scene;
