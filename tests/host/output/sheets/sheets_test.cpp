@@ -1,5 +1,7 @@
 // Pictures of whole runs and what records keep for them.
 
+#include "host/output/run/frame_records.h"
+#include "host/output/run/run_identity.h"
 #include "host/output/sheets/animation.h"
 #include "host/output/sheets/contact_sheet.h"
 #include "host/output/sheets/sheets.h"
@@ -67,7 +69,35 @@ std::string data_of(const std::string &png) {
   return data;
 }
 
+void write_text(const std::filesystem::path &file, const std::string &text) { std::ofstream(file) << text; }
+
+// The names of the pictures of a run of two frames, whose records keep so many thumbnails.
+std::vector<std::string> sheets_of_edited_run(std::size_t thumbnails) {
+  const TemporaryFolder folder;
+  const RunIdentity run{{{"setup", {{"frames", {{"count", 2}}}}}}, "a"};
+  write_text(folder.path() / run_file_name, run_file_text(run, this_process()));
+  const ordered_json one = thumbnail_json(thumbnail_of({1, 2}, {2, 1}));
+  for (const std::uint32_t frame : {0u, 1u}) {
+    FrameRecord record;
+    record.sensor.name = "pmd";
+    record.frame = frame;
+    record.thumbnails = ordered_json::array();
+    for (std::size_t i = 0; i < thumbnails; ++i) {
+      record.thumbnails.push_back(one);
+      record.thumbnails.back()["channel"] = "f" + std::to_string(i);
+    }
+    write_text(folder.path() / record_name(frame), record_json(run.hash, {record}).dump());
+  }
+  return write_sheets(folder.path(), [] {});
+}
+
 } // namespace
+
+TEST_CASE("records that were given thumbnails of more channels than sensors have get no pictures") {
+  CHECK(sheets_of_edited_run(2) ==
+        std::vector<std::string>{"pmd.f0.sheet.png", "pmd.f0.apng", "pmd.f1.sheet.png", "pmd.f1.apng"});
+  CHECK(sheets_of_edited_run(4097).empty());
+}
 
 TEST_CASE("pictures of a run show all frames of a few, and 36 of many, the first and the last among them") {
   CHECK_FALSE(is_in_sheets(0, 1));
