@@ -107,7 +107,7 @@ TEST_CASE("No file takes the number of a stream that is closed") {
   }
 }
 
-TEST_CASE("A second signal ends what has no safe point") {
+TEST_CASE("A second signal ends what has no safe point", "[no_thread_sanitizer]") {
   const Sequence sequence(1);
   const std::string fifo = "'" + (sequence.work / "fifo") + "'";
   // The pipe is nearly full, and nobody reads it: the page waits to be written.
