@@ -34,10 +34,18 @@ class Watch:
 
     def look(self, frames):
         resident = int(Path(self.folder, "statm").read_text().split()[1]) * PAGE_KIB
-        handles, threads = (len(os.listdir(self.folder / part)) for part in ("fd", "task"))
+        handles, threads = self.least("fd"), self.least("task")
         self.rows.append((frames, time.monotonic() - self.begin, resident, handles, threads))
         print(f"{frames:>9} frames {self.rows[-1][1]:>8.1f} s {resident / 1024:>9.2f} MiB {handles:>4} handles "
               f"{threads:>4} threads", flush=True)
+
+    def least(self, part):
+        """A single look may fall on a file that is being written, or on the thread that prepares the next exposure."""
+        counts = []
+        for _ in range(20):
+            counts.append(len(os.listdir(self.folder / part)))
+            time.sleep(0.002)
+        return min(counts)
 
     def judge(self, what):
         """Growth from a fifth of the frames on; a straight line through the rows tells what a day would take."""
