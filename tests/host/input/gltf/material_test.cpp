@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <numbers>
 #include <sys/stat.h>
 #include <tiny_gltf.h>
@@ -339,6 +340,21 @@ TEST_CASE("All images of a file together have a limit") {
   CHECK_THAT(
       input_error_of([&] { materials.material_of(1, false); }),
       EndsWith("/images/1: expected at most 134217726 further pixels, found an image of 16384 x 8192"));
+}
+
+TEST_CASE("All files of images together have a limit") {
+  MaterialBench bench;
+  bench.texture_info();
+  const auto opaque_bytes = std::filesystem::file_size(bench.folder.path() / "opaque.png");
+  const std::uintmax_t left_bytes = (std::uintmax_t{1} << 30) - opaque_bytes;
+  std::filesystem::resize_file(bench.folder.write("sparse.png", ""), left_bytes + 1); // is not read
+  bench.gltf["images"].push_back({{"uri", "sparse.png"}});
+  bench.gltf["textures"].push_back({{"source", 1}});
+  bench.gltf["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
+  GltfMaterials materials = bench.materials();
+  materials.material_of(0, false);
+  CHECK_THAT(input_error_of([&] { materials.material_of(1, false); }),
+             EndsWith(fmt::format("has {} bytes, expected at most {}", left_bytes + 1, left_bytes)));
 }
 
 TEST_CASE("Textures without an image that can be read") {
