@@ -1,6 +1,7 @@
 #include "host/input/setup/free_pose.h"
 
 #include "host/input/file/json_file.h"
+#include "host/input/gltf/nodes.h"
 #include "host/input/setup/rotations.h"
 
 #include <algorithm>
