@@ -3,6 +3,7 @@
 #include "engine/model/error.h"
 #include "host/capture/exposure.h"
 #include "host/capture/wanted_channels.h"
+#include "host/output/files/channel.h"
 #include "tests/program/program.h"
 
 #include <bit>

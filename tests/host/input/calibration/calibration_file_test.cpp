@@ -43,28 +43,6 @@ per_view_reprojection_errors: !!opencv-matrix
    data: [ 3.8e-01, .Nan ]
 )";
 
-constexpr const char *ros_yaml = R"(image_width: 320
-image_height: 240
-camera_name: narrow_stereo/left
-camera_matrix:
-  rows: 3
-  cols: 3
-  data: [300, 0, 160.5, 0, 301, 120.5, 0, 0, 1]
-distortion_model: plumb_bob
-distortion_coefficients:
-  rows: 1
-  cols: 5
-  data: [-0.3, 0.1, 0.001, 0.002, 0]
-rectification_matrix:
-  rows: 3
-  cols: 3
-  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
-projection_matrix:
-  rows: 3
-  cols: 4
-  data: [300, 0, 160, 0, 0, 300, 120, 0, 0, 0, 1, 0]
-)";
-
 std::string ros_with(const std::string &from, const std::string &to) { return replaced(ros_yaml, from, to); }
 
 // A calibration in few lines.

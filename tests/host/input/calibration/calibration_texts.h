@@ -10,6 +10,29 @@
 
 namespace pmdsim::test {
 
+// As ROS's camera_calibration writes it.
+inline constexpr const char *ros_yaml = R"(image_width: 320
+image_height: 240
+camera_name: narrow_stereo/left
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [300, 0, 160.5, 0, 301, 120.5, 0, 0, 1]
+distortion_model: plumb_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [-0.3, 0.1, 0.001, 0.002, 0]
+rectification_matrix:
+  rows: 3
+  cols: 3
+  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
+projection_matrix:
+  rows: 3
+  cols: 4
+  data: [300, 0, 160, 0, 0, 300, 120, 0, 0, 0, 1, 0]
+)";
+
 // As ROS 2's `ros2 topic echo --once /camera_info` prints it.
 inline constexpr const char *ros2_message = R"(header:
   stamp:

@@ -2,6 +2,7 @@
 
 #include "host/input/setup/trajectory.h"
 #include "tests/host/input/setup/setup_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 using namespace pmdsim;
 using test::SetupFixture;
+using test::TemporaryFolder;
 
 namespace {
 
