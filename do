@@ -42,7 +42,7 @@ usage: ./do COMMAND
   package    build and make a Debian package of program, library and Python module: build/pmdsim_VERSION_ARCHITECTURE.deb
   wheel      build and make a Python wheel that carries the library: build/pmdsim-VERSION-py3-none-PLATFORM.whl
   lint       check the formatting and look for mistakes with clang-tidy
-             --long   each source by itself, with clang's analyzer
+             --long   each source by itself: builds it, and looks at it with clang's analyzer
   fuzz       feed the readers of files, the C interface and the device what nobody writes: all targets of tests/fuzz,
              60 s each; ./do fuzz TARGET [SECONDS] one of them, ./do fuzz all SECONDS
   sanitize   build with sanitizers and run the tests of every day under them, for hours: address, which is also for
@@ -224,9 +224,11 @@ lint() {
   tidy release '-clang-analyzer-*,-bugprone-suspicious-include,-clang-diagnostic-shadow'
 }
 
+# The build comes first, as an include that a source or a test lacks is not seen in a room.
 lint_long() {
   install_linters
   configure dev
+  ninja -C "$root/build/dev" 2>&1 | tell_of_build
   check_format
   tidy dev ''
 }
