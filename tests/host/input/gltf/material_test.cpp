@@ -49,6 +49,12 @@ struct MaterialBench {
     gltf["images"][0]["uri"] = "translucent.png";
     texture_info();
   }
+  // Material 1, with image 1.
+  void add_second(const char *image) {
+    gltf["images"].push_back({{"uri", image}});
+    gltf["textures"].push_back({{"source", 1}});
+    gltf["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
+  }
   GltfMaterials materials() const {
     const auto file = folder.write("scene.gltf", gltf.dump());
     const GltfDocument document = read_gltf_document(file, Place{file});
@@ -332,9 +338,7 @@ TEST_CASE("All images of a file together have a limit") {
   MaterialBench bench;
   bench.texture_info();
   bench.folder.write("huge.png", png_header(16384, 8192)); // all that is allowed, if nothing else were there
-  bench.gltf["images"].push_back({{"uri", "huge.png"}});
-  bench.gltf["textures"].push_back({{"source", 1}});
-  bench.gltf["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
+  bench.add_second("huge.png");
   GltfMaterials materials = bench.materials();
   materials.material_of(0, false);
   CHECK_THAT(
@@ -348,9 +352,7 @@ TEST_CASE("All files of images together have a limit") {
   const auto opaque_bytes = std::filesystem::file_size(bench.folder.path() / "opaque.png");
   const std::uintmax_t left_bytes = (std::uintmax_t{1} << 30) - opaque_bytes;
   std::filesystem::resize_file(bench.folder.write("sparse.png", ""), left_bytes + 1); // is not read
-  bench.gltf["images"].push_back({{"uri", "sparse.png"}});
-  bench.gltf["textures"].push_back({{"source", 1}});
-  bench.gltf["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
+  bench.add_second("sparse.png");
   GltfMaterials materials = bench.materials();
   materials.material_of(0, false);
   CHECK_THAT(input_error_of([&] { materials.material_of(1, false); }),
